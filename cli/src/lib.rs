@@ -1,1 +1,3 @@
-//! Placeholder.
+//! Partitioned fluid-structure interaction from a scene file.
+
+pub mod scene;

@@ -1,0 +1,3 @@
+//! Scene files: read, checked, explained.
+
+pub mod schema;

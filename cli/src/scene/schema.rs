@@ -1,0 +1,65 @@
+//! What a scene file may say: one type a table, ranges in the types.
+//!
+//! Every key is documented with its unit and default. A default is written into the resolved scene, so the
+//! file in an output folder is complete and runs again as it is.
+
+mod coupling;
+mod fluid;
+mod formula;
+mod limit;
+mod newton;
+mod numbers;
+mod output;
+mod structure;
+
+use serde::{Deserialize, Serialize};
+
+pub use coupling::{Acceleration, Convergence, Coupling, Filter, NewtonPolicy, OnLimit, Predictor};
+pub use fluid::{
+    Condition, Diagonals, Fluid, FluidMesh, FluidTimeScheme, Initial, MeshMotion, MotionLaw, MotionMode,
+    Outflow, PressurePin, RectangleMesh, Tangent,
+};
+pub use formula::{Formula, VectorFormula};
+pub use limit::Limit;
+pub use newton::{Check, Newton, Tolerance};
+pub use numbers::{
+    Count, Fraction, NonNegative, NotACount, OutOfRange, Parameter, PoissonRatio, Positive, Real, Relaxation,
+    SpectralRadius,
+};
+pub use output::{Output, Probe};
+pub use structure::{
+    Degree, Elastic, Geometry, Material, Plane, RayleighDamping, RectanglePatch, Side, Structure,
+    StructureTimeScheme,
+};
+
+/// A whole scene: a fluid, a structure, or both coupled.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// One line that names the scene.
+    pub title: String,
+    /// Step size and number of steps.
+    pub time: Time,
+    /// The flow; leave it out for a structure alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fluid: Option<Fluid>,
+    /// The solid; leave it out for a flow alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub structure: Option<Structure>,
+    /// How the two meet; needed when both are there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coupling: Option<Coupling>,
+    /// What is written, and how often.
+    #[serde(default)]
+    pub output: Output,
+}
+
+/// `[time]`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// Size of a time step [s].
+    pub step: Positive,
+    /// Number of time steps.
+    pub steps: Count,
+}

@@ -1,0 +1,196 @@
+//! `[coupling]`: how fluid and structure meet.
+
+use serde::{Deserialize, Serialize};
+
+use super::limit::Limit;
+use super::numbers::{Count, Fraction, Positive, Relaxation};
+
+/// `[coupling]`: Dirichlet-Neumann iterations, fluid first.
+///
+/// What meets is not said here: the fluid's boundary groups marked `"interface"` and the structure's `wetted` sides.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Coupling {
+    /// Coupling iterations a step may take. Default: 100.
+    #[serde(default = "max_iterations")]
+    pub max_iterations: Count,
+    /// When a step reaches that limit: `"fail"` (default), or `"accept"` it and record that it did not converge.
+    #[serde(default)]
+    pub on_limit: OnLimit,
+    /// Largest distance of a fluid interface node from the structure, as part of the interface's extent. Default: 1e-6.
+    #[serde(default = "projection_tolerance")]
+    pub projection_tolerance: Positive,
+    /// First guess of a step's interface displacement: `"constant"` (default), `"linear"`, `"quadratic"`, `"cubic"`.
+    #[serde(default)]
+    pub predictor: Predictor,
+    /// What makes the next interface displacement from the last ones.
+    pub acceleration: Acceleration,
+    /// When a step is done. Default: `{ changes = 1e-5 }`.
+    #[serde(default)]
+    pub convergence: Convergence,
+    /// How many Newton iterations a solver call may take. Default: to convergence, both fields.
+    #[serde(default)]
+    pub newton: NewtonPolicy,
+}
+
+fn max_iterations() -> Count {
+    Count::literal(100)
+}
+
+fn projection_tolerance() -> Positive {
+    Positive::new(1e-6).expect("1e-6 is positive")
+}
+
+/// `coupling.on_limit`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OnLimit {
+    /// The run ends with an error.
+    #[default]
+    Fail,
+    /// The run goes on; the step's record says `converged: false`.
+    Accept,
+}
+
+/// `coupling.predictor`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Predictor {
+    /// The last step's displacement.
+    #[default]
+    Constant,
+    /// On a line through the last two steps.
+    Linear,
+    /// On a parabola through the last three.
+    Quadratic,
+    /// On a cubic through the last four.
+    Cubic,
+}
+
+/// `[coupling.acceleration.*]`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Acceleration {
+    /// x <- x + omega r with one omega.
+    Constant {
+        /// The factor omega.
+        relaxation: Relaxation,
+    },
+    /// x <- x + omega r with Aitken's omega.
+    Aitken {
+        /// Factor of the first iteration. Default: 0.1.
+        #[serde(default = "initial_relaxation")]
+        initial_relaxation: Relaxation,
+    },
+    /// Least squares over the last steps' differences.
+    IqnIls {
+        /// Factor of an iteration without any difference. Default: 0.1.
+        #[serde(default = "initial_relaxation")]
+        initial_relaxation: Relaxation,
+        /// Earlier steps whose differences are kept, or `"unlimited"`. Default: 0.
+        #[serde(default = "no_steps")]
+        reused_steps: Limit<0>,
+        /// Which nearly dependent differences are dropped. Default: `{ qr3 = 1e-2 }`.
+        #[serde(default)]
+        filter: Filter,
+    },
+    /// Inverse Jacobian updated from step to step, stored as a matrix.
+    IqnMvj {
+        /// Factor of an iteration without any difference. Default: 0.1.
+        #[serde(default = "initial_relaxation")]
+        initial_relaxation: Relaxation,
+        /// Which nearly dependent differences are dropped. Default: `{ qr3 = 1e-2 }`.
+        #[serde(default)]
+        filter: Filter,
+    },
+    /// The same update from stored differences, without the matrix (Spenke, Hosters, Behr 2020).
+    IqnImvls {
+        /// Factor of an iteration without any difference. Default: 0.1.
+        #[serde(default = "initial_relaxation")]
+        initial_relaxation: Relaxation,
+        /// Earlier steps in the Jacobian, or `"unlimited"`. Default: `"unlimited"`.
+        #[serde(default = "all_steps")]
+        history_steps: Limit<0>,
+        /// Relaxes the first iteration of every step, history or not. Default: false.
+        #[serde(default)]
+        relax_first_iteration: bool,
+        /// Which nearly dependent differences are dropped. Default: `{ qr3 = 1e-2 }`.
+        #[serde(default)]
+        filter: Filter,
+    },
+}
+
+fn initial_relaxation() -> Relaxation {
+    Relaxation::new(0.1).expect("0.1 is a relaxation factor")
+}
+
+const fn no_steps() -> Limit<0> {
+    Limit::AtMost(0)
+}
+
+const fn all_steps() -> Limit<0> {
+    Limit::Unlimited
+}
+
+/// `filter` of the quasi-Newton accelerations.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Filter {
+    /// Every difference is used.
+    None,
+    /// Drops a column whose part orthogonal to the newer ones is below this part of its own length.
+    Qr3(Fraction),
+}
+
+impl Default for Filter {
+    fn default() -> Self {
+        Self::Qr3(Fraction::new(1e-2).expect("0.01 is a fraction"))
+    }
+}
+
+/// `coupling.convergence`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Convergence {
+    /// Every field's relative change in one coupling iteration is below this, and every residual below its bound.
+    Changes(Positive),
+    /// Every field enters its call with a residual below its bound (Spenke, Delaisse, Degroote, Hosters 2023).
+    EntryResiduals,
+    /// The interface residual relative to the interface displacement, and every residual below its bound.
+    InterfaceResidual(Positive),
+}
+
+impl Default for Convergence {
+    fn default() -> Self {
+        Self::Changes(Positive::new(1e-5).expect("1e-5 is positive"))
+    }
+}
+
+/// `coupling.newton`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum NewtonPolicy {
+    /// The same limits in every call.
+    Fixed {
+        /// Newton iterations of one fluid call, or `"unlimited"`: to convergence. Default: `"unlimited"`.
+        #[serde(default = "to_convergence")]
+        fluid: Limit<1>,
+        /// Newton iterations of one structure call, or `"unlimited"`: to convergence. Default: `"unlimited"`.
+        #[serde(default = "to_convergence")]
+        structure: Limit<1>,
+    },
+    /// So many until the coupling criterion is met, then to convergence.
+    UntilCoupled(Count),
+    /// Until one more Newton iteration changes the call's result by less than this part.
+    ConvergedInterfaceData(Fraction),
+}
+
+const fn to_convergence() -> Limit<1> {
+    Limit::Unlimited
+}
+
+impl Default for NewtonPolicy {
+    fn default() -> Self {
+        Self::Fixed { fluid: Limit::Unlimited, structure: Limit::Unlimited }
+    }
+}

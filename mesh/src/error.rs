@@ -1,0 +1,164 @@
+//! What can be wrong with a mesh, where, and what to do about it.
+
+use std::fmt;
+
+/// A point in space as messages show it: `(0.25, 0.5) m`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Place(pub Vec<f64>);
+
+impl<const D: usize> From<[f64; D]> for Place {
+    fn from(point: [f64; D]) -> Self {
+        Self(point.to_vec())
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("(")?;
+        for (i, x) in self.0.iter().enumerate() {
+            let separator = if i == 0 { "" } else { ", " };
+            write!(f, "{separator}{x:.6}")?;
+        }
+        f.write_str(") m")
+    }
+}
+
+/// Why points, cells and groups do not make a mesh.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeshError {
+    /// The mesh has no cell.
+    #[error("the mesh has no cells\nhint: check that the mesh file holds triangles (2D) or tetrahedra (3D)")]
+    Empty,
+    /// Cells that are not the simplices of this dimension.
+    #[error("cells with {found} nodes in {dimension} dimensions\nhint: only simplices with {} nodes are solved on", dimension + 1)]
+    WrongKind {
+        /// Nodes of a cell as given.
+        found: usize,
+        /// Dimension of the mesh.
+        dimension: usize,
+    },
+    /// A coordinate that is infinite or not a number.
+    #[error("node {node} has a coordinate that is not finite: {coordinates:?}\nhint: repair the mesh file")]
+    NotFinite {
+        /// The node.
+        node: usize,
+        /// Its coordinates [m].
+        coordinates: Vec<f64>,
+    },
+    /// A cell or facet that names a node beyond the last one.
+    #[error(
+        "{entity} {index} names node {node}, but there are only {nodes} nodes (counted from 0)\nhint: are the nodes counted from 1?"
+    )]
+    NodeOutOfRange {
+        /// `"cell"` or `"facet of group ..."`.
+        entity: String,
+        /// Number of the cell, or of the facet within its group.
+        index: usize,
+        /// The node that does not exist.
+        node: usize,
+        /// Number of nodes.
+        nodes: usize,
+    },
+    /// A cell that is flat or turned inside out.
+    #[error("cell {cell} at {centroid} has measure {measure:.3e} m^{}: {}", centroid.0.len(), degenerate_hint(*measure))]
+    NotPositive {
+        /// The cell.
+        cell: usize,
+        /// Its centroid.
+        centroid: Place,
+        /// Its signed area or volume.
+        measure: f64,
+    },
+    /// A node that no cell uses; no equation would determine its values.
+    #[error("node {node} at {place} belongs to no cell\nhint: remove it from the mesh")]
+    UnusedNode {
+        /// The node.
+        node: usize,
+        /// Where it is.
+        place: Place,
+    },
+    /// A facet between more than two cells.
+    #[error(
+        "facet with nodes {nodes:?} belongs to cells {cells:?}, at most two may share it\nhint: look for overlapping cells or cells given twice"
+    )]
+    SharedFacet {
+        /// The facet's nodes.
+        nodes: Vec<usize>,
+        /// All cells that own it.
+        cells: Vec<usize>,
+    },
+    /// A facet of a group that is not on the boundary.
+    #[error(
+        "group `{group}`: facet {facet} with nodes {nodes:?} at {place} is not on the boundary\nhint: a group holds only facets that belong to exactly one cell"
+    )]
+    NotOnBoundary {
+        /// The group.
+        group: String,
+        /// Number of the facet within the group.
+        facet: usize,
+        /// Its nodes.
+        nodes: Vec<usize>,
+        /// Its centroid.
+        place: Place,
+    },
+    /// A facet named twice.
+    #[error(
+        "facet with nodes {nodes:?} at {place} is in group `{first}` and in group `{second}`\nhint: each boundary facet belongs to one group at most, once"
+    )]
+    InTwoGroups {
+        /// The facet's nodes.
+        nodes: Vec<usize>,
+        /// Its centroid.
+        place: Place,
+        /// The group that named it first.
+        first: String,
+        /// The group that named it again (the same one when listed twice).
+        second: String,
+    },
+    /// Two groups of one name.
+    #[error("two boundary groups are called `{name}`\nhint: merge them or rename one")]
+    DuplicateGroup {
+        /// The name.
+        name: String,
+    },
+    /// A group without facets: a condition given there would act nowhere.
+    #[error("boundary group `{name}` has no facets\nhint: remove it, or check how the boundary was marked")]
+    EmptyGroup {
+        /// The name.
+        name: String,
+    },
+    /// A generated box without extent or without divisions.
+    #[error(
+        "a box of size {size:?} m in {divisions:?} divisions from {origin:?} m cannot be meshed\nhint: give finite coordinates, positive sizes and at least one division a direction"
+    )]
+    InvalidBox {
+        /// Lower corner [m].
+        origin: Vec<f64>,
+        /// Edge lengths [m].
+        size: Vec<f64>,
+        /// Divisions a direction.
+        divisions: Vec<usize>,
+    },
+}
+
+fn degenerate_hint(measure: f64) -> &'static str {
+    if measure < 0.0 {
+        "it is inverted\nhint: swap two of its nodes (triangles run counter-clockwise)"
+    } else {
+        "it is flat\nhint: merge coinciding nodes or remesh there"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn message_names_entity_place_and_remedy() {
+        let error = MeshError::NotPositive { cell: 7, centroid: Place::from([0.25, 0.5]), measure: -1.25e-3 };
+        insta::assert_snapshot!(error, @r"
+        cell 7 at (0.250000, 0.500000) m has measure -1.250e-3 m^2: it is inverted
+        hint: swap two of its nodes (triangles run counter-clockwise)
+        ");
+    }
+}

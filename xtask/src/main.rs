@@ -1,2 +1,74 @@
-//! Placeholder.
-fn main() {}
+//! Tasks of the Partita workspace, started with `cargo xtask <task>`.
+//!
+//! Nothing here depends on a solver crate: what is heavy is started as the `partita` binary, and its `summary.json`
+//! is read back.
+
+mod ci;
+mod reproduce;
+mod task;
+mod tidy;
+
+use std::process::ExitCode;
+
+use task::{TaskError, workspace_root};
+
+const USAGE: &str = "\
+Usage: cargo xtask <task>
+
+Tasks:
+  tidy                   check what a compiler does not: arrows between rooms, file lengths, words that must not stand
+  reproduce --quick      run the first steps of the elastic-bottom tank at four settings and print the counts
+  ci [--skip NAME]...    run all that CI runs, in its order: test, fmt, clippy, doc, tidy, reproduce
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match dispatch(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("xtask: {error}");
+            ExitCode::from(if matches!(error, TaskError::Usage { .. }) { 2 } else { 1 })
+        }
+    }
+}
+
+fn dispatch(arguments: &[&str]) -> Result<(), TaskError> {
+    let root = workspace_root();
+    match arguments {
+        ["tidy"] => tidy::run(root),
+        ["reproduce", "--quick"] => reproduce::quick(root),
+        ["ci", options @ ..] => ci::run(root, &skipped(options)?),
+        ["help" | "--help" | "-h"] => {
+            print!("{USAGE}");
+            Ok(())
+        }
+        _ => Err(TaskError::Usage { given: arguments.join(" "), usage: USAGE }),
+    }
+}
+
+/// The names after each `--skip`.
+fn skipped<'a>(options: &[&'a str]) -> Result<Vec<&'a str>, TaskError> {
+    let names: Vec<&str> = match options {
+        [] => return Ok(Vec::new()),
+        ["--skip", name, rest @ ..] => std::iter::once(*name).chain(skipped(rest)?).collect(),
+        _ => return Err(TaskError::Usage { given: options.join(" "), usage: USAGE }),
+    };
+    match names.iter().find(|name| !ci::names().any(|known| known == **name)) {
+        Some(unknown) => Err(TaskError::Usage { given: format!("ci --skip {unknown}"), usage: USAGE }),
+        None => Ok(names),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn skip_takes_known_names_and_refuses_others() {
+        assert_eq!(skipped(&["--skip", "test", "--skip", "doc"]).expect("known names"), ["test", "doc"]);
+        assert!(skipped(&["--skip", "tests"]).is_err());
+        assert!(skipped(&["--skip"]).is_err());
+        assert!(skipped(&["test"]).is_err());
+    }
+}

@@ -1,0 +1,59 @@
+//! All that CI runs, in its order.
+
+use std::path::Path;
+use std::time::Instant;
+
+use crate::task::{TaskError, cargo, run as run_command, shown};
+use crate::{reproduce, tidy};
+
+/// How one check is done.
+enum Check {
+    /// A cargo command, with an environment variable if it needs one.
+    Cargo(&'static [&'static str], Option<(&'static str, &'static str)>),
+    /// A task of this program.
+    Task(&'static str, fn(&Path) -> Result<(), TaskError>),
+}
+
+/// The tests come first: they are what the README tells a reader to run. Tests, lints and documentation share the dev
+/// profile, so the heavy dependencies are compiled once for it and once for the release binary.
+const CHECKS: [(&str, Check); 6] = [
+    ("test", Check::Cargo(&["test", "--workspace"], None)),
+    ("fmt", Check::Cargo(&["fmt", "--all", "--check"], None)),
+    ("clippy", Check::Cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], None)),
+    ("doc", Check::Cargo(&["doc", "--workspace", "--no-deps"], Some(("RUSTDOCFLAGS", "-D warnings")))),
+    ("tidy", Check::Task("cargo xtask tidy", tidy::run)),
+    ("reproduce", Check::Task("cargo xtask reproduce --quick", reproduce::quick)),
+];
+
+/// The names by which a check can be skipped.
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
+    CHECKS.iter().map(|(name, _)| *name)
+}
+
+/// Runs each check that is not skipped and stops at the first that fails.
+pub(crate) fn run(root: &Path, skip: &[&str]) -> Result<(), TaskError> {
+    let start = Instant::now();
+    for (name, check) in CHECKS.iter().filter(|(name, _)| !skip.contains(name)) {
+        let begun = Instant::now();
+        perform(root, check)?;
+        println!("== {name}: passed in {:.1} s\n", begun.elapsed().as_secs_f64());
+    }
+    println!("== all passed in {:.1} s", start.elapsed().as_secs_f64());
+    Ok(())
+}
+
+fn perform(root: &Path, check: &Check) -> Result<(), TaskError> {
+    match check {
+        Check::Cargo(arguments, variable) => {
+            let mut command = cargo(root, arguments);
+            command.envs(*variable);
+            let prefix = variable.map_or(String::new(), |(name, value)| format!("{name}=\"{value}\" "));
+            println!("== {prefix}{}", shown(&command));
+            run_command(command)
+        }
+        Check::Task(line, task) => {
+            println!("== {line}");
+            task(root)
+        }
+    }
+}

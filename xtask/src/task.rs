@@ -1,0 +1,65 @@
+//! What every task needs: where the workspace is, and how a task fails.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// Why a task did not succeed.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum TaskError {
+    /// The command line names no task.
+    #[error("no such task: {given:?}\n{usage}")]
+    Usage { given: String, usage: &'static str },
+    /// A file could not be read or written.
+    #[error("{path}: {source}", path = path.display())]
+    File { path: PathBuf, source: std::io::Error },
+    /// A program could not be started.
+    #[error("cannot start `{command}`: {source}")]
+    Start { command: String, source: std::io::Error },
+    /// A program ended with an error.
+    #[error("`{command}` failed ({status})")]
+    Command { command: String, status: std::process::ExitStatus },
+    /// The task itself found something wrong and has told what.
+    #[error("{0}")]
+    Failed(String),
+}
+
+/// The folder of the workspace's `Cargo.toml`.
+pub(crate) fn workspace_root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("xtask is a member of the workspace")
+}
+
+/// Cargo, as the one that started this task.
+pub(crate) fn cargo(root: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.current_dir(root).args(arguments);
+    command
+}
+
+/// The command as one would type it.
+pub(crate) fn shown(command: &Command) -> String {
+    let program = Path::new(command.get_program()).file_stem().unwrap_or_default();
+    std::iter::once(program)
+        .chain(command.get_args())
+        .map(|word| word.to_string_lossy().into_owned())
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// Runs a command whose output the reader sees.
+pub(crate) fn run(mut command: Command) -> Result<(), TaskError> {
+    let status = command.status().map_err(|source| TaskError::Start { command: shown(&command), source })?;
+    if status.success() { Ok(()) } else { Err(TaskError::Command { command: shown(&command), status }) }
+}
+
+/// Runs a command and returns what it writes to stdout; its stderr is the reader's.
+pub(crate) fn captured(mut command: Command) -> Result<String, TaskError> {
+    let output = command
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|source| TaskError::Start { command: shown(&command), source })?;
+    if output.status.success() {
+        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    } else {
+        Err(TaskError::Command { command: shown(&command), status: output.status })
+    }
+}

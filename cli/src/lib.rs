@@ -1,3 +1,5 @@
 //! Partitioned fluid-structure interaction from a scene file.
 
+pub mod expression;
+mod nearest;
 pub mod scene;

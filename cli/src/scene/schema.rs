@@ -19,7 +19,7 @@ pub use fluid::{
     Condition, Diagonals, Fluid, FluidMesh, FluidTimeScheme, Initial, MeshMotion, MotionLaw, MotionMode,
     Outflow, PressurePin, RectangleMesh, Tangent,
 };
-pub use formula::{Formula, VectorFormula};
+pub use formula::{Formula, VectorFormula, VectorFunction};
 pub use limit::Limit;
 pub use newton::{Check, Newton, Tolerance};
 pub use numbers::{

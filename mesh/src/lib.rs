@@ -42,4 +42,5 @@ pub use cell::{CellKind, Cells};
 pub use error::{MeshError, Place};
 pub use facet::Facet;
 pub use mesh::{BoundaryGroup, Mesh, NamedFacets};
+pub use motion::{MeshMotion, MotionError, MotionLaw, MotionMode, MotionQuality, MotionSettings};
 pub use topology::Topology;

@@ -4,6 +4,8 @@
 //! gradients of the linear shape functions are `grad N_i = A^-T` column `i` for `i > 0`,
 //! `grad N_0 = -sum_i grad N_i`.
 
+use partita_numerics::small;
+
 /// Most vertices a simplex has here: those of a tetrahedron.
 pub const MAX_VERTICES: usize = 4;
 
@@ -31,26 +33,22 @@ pub fn vertices<const D: usize>(points: &[[f64; D]], nodes: &[usize]) -> [[f64; 
 /// ```
 #[must_use]
 pub fn measure<const D: usize>(vertices: &[[f64; D]]) -> f64 {
-    determinant(&edges(vertices)) / factorial(D)
+    small::determinant(&edges(vertices)) / factorial(D)
 }
 
-/// Gradients `[1/m]` of the `D + 1` linear shape functions and the signed measure `det A / D!`.
-///
-/// The gradients are infinite or not a number when the measure vanishes.
+/// Gradients `[1/m]` of the `D + 1` linear shape functions and the signed measure `det A / D!`, or `None`
+/// where the measure is zero or not finite.
 #[must_use]
-pub fn gradients<const D: usize>(vertices: &[[f64; D]]) -> ([[f64; D]; MAX_VERTICES], f64) {
-    let edges = edges(vertices);
-    let cofactors = cofactors(&edges);
-    let determinant: f64 = (0..D).map(|i| edges[0][i] * cofactors[0][i]).sum();
+pub fn gradients<const D: usize>(vertices: &[[f64; D]]) -> Option<([[f64; D]; MAX_VERTICES], f64)> {
+    let (inverse, determinant) = small::inverse(&edges(vertices))?;
     let mut gradients = [[0.0; D]; MAX_VERTICES];
     for a in 0..D {
         for i in 0..D {
-            let slope = cofactors[a][i] / determinant;
-            gradients[a + 1][i] = slope;
-            gradients[0][i] -= slope;
+            gradients[a + 1][i] = inverse[i][a];
+            gradients[0][i] -= inverse[i][a];
         }
     }
-    (gradients, determinant / factorial(D))
+    Some((gradients, determinant / factorial(D)))
 }
 
 /// Mean of the vertices.
@@ -84,36 +82,6 @@ pub(crate) fn difference<const D: usize>(a: &[f64; D], b: &[f64; D]) -> [f64; D]
 /// Row `i` holds the edge `x_{i+1} - x_0`: the transpose of `A`.
 fn edges<const D: usize>(vertices: &[[f64; D]]) -> [[f64; D]; D] {
     std::array::from_fn(|a| difference(&vertices[a + 1], &vertices[0]))
-}
-
-fn determinant<const D: usize>(m: &[[f64; D]; D]) -> f64 {
-    let cofactors = cofactors(m);
-    (0..D).map(|i| m[0][i] * cofactors[0][i]).sum()
-}
-
-/// `det(m) m^-T`, entry by entry.
-fn cofactors<const D: usize>(m: &[[f64; D]; D]) -> [[f64; D]; D] {
-    let mut c = [[0.0; D]; D];
-    match D {
-        1 => c[0][0] = 1.0,
-        2 => {
-            c[0][0] = m[1][1];
-            c[0][1] = -m[1][0];
-            c[1][0] = -m[0][1];
-            c[1][1] = m[0][0];
-        }
-        3 => {
-            for i in 0..3 {
-                for j in 0..3 {
-                    let (k, l) = ((i + 1) % 3, (i + 2) % 3);
-                    let (p, q) = ((j + 1) % 3, (j + 2) % 3);
-                    c[i][j] = m[k][p] * m[l][q] - m[k][q] * m[l][p];
-                }
-            }
-        }
-        _ => panic!("simplices exist here in 1, 2 and 3 dimensions"),
-    }
-    c
 }
 
 const fn factorial(dimension: usize) -> f64 {
@@ -150,12 +118,17 @@ mod tests {
     fn gradients_reproduce_a_linear_field() {
         let slope = [2.0, -3.0, 0.5];
         let field = |x: &[f64; 3]| 1.0 + (0..3).map(|i| slope[i] * x[i]).sum::<f64>();
-        let (gradients, volume) = gradients(&TETRAHEDRON);
+        let (gradients, volume) = gradients(&TETRAHEDRON).expect("a tetrahedron with a volume");
         for i in 0..3 {
             let found: f64 = (0..4).map(|a| field(&TETRAHEDRON[a]) * gradients[a][i]).sum();
             assert_relative_eq!(found, slope[i], max_relative = 1e-13);
         }
         assert_relative_eq!(volume, measure(&TETRAHEDRON), max_relative = 1e-14);
+    }
+
+    #[test]
+    fn a_flat_simplex_has_no_gradients() {
+        assert_eq!(gradients(&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]), None);
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::MotionError;
+
 /// How the nodes inside follow those on the boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -58,4 +60,29 @@ const fn poisson_ratio() -> f64 {
 
 const fn stiffening() -> f64 {
     1.0
+}
+
+impl MotionLaw {
+    /// The exponent `chi` of `(J_0 / J)^chi`.
+    #[must_use]
+    pub const fn stiffening(&self) -> f64 {
+        match *self {
+            Self::Elastic { stiffening, .. } | Self::Harmonic { stiffening } => stiffening,
+        }
+    }
+}
+
+impl MotionSettings {
+    pub(super) fn check(&self) -> Result<(), MotionError> {
+        let stiffening = self.law.stiffening();
+        if !(stiffening.is_finite() && stiffening >= 0.0) {
+            return Err(MotionError::Stiffening { value: stiffening });
+        }
+        match self.law {
+            MotionLaw::Elastic { poisson_ratio, .. } if !(poisson_ratio > -1.0 && poisson_ratio < 0.5) => {
+                Err(MotionError::PoissonRatio { value: poisson_ratio })
+            }
+            _ => Ok(()),
+        }
+    }
 }

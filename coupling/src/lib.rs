@@ -1,1 +1,43 @@
-//! Placeholder.
+//! Dirichlet-Neumann coupling of black-box participants.
+//!
+//! This crate couples two fields that exchange data at an interface. It knows no mesh, no fluid and no
+//! structure: it sees vectors, and things that can be advanced.
+//!
+//! * [`participant`] and [`port`]: what a field has to offer, and what its vectors mean.
+//! * [`transfer`]: from the points of one field to the points of the other, and back by the transpose.
+//! * [`accelerate`]: relaxation and interface quasi-Newton methods.
+//! * [`policy`]: how many Newton iterations each call may run. [`criterion`]: when a step is done.
+//! * [`predict`]: where a step starts.
+//! * [`dirichlet_neumann`]: one time step, the one loop of this crate. [`march`]: step after step.
+//! * [`record`] and [`observe`]: what a run leaves behind.
+//! * `conformance`: checks for everybody who implements a trait of this crate.
+//! * `models`: an elastic tube and a linear tank, small enough to debug a method in milliseconds.
+//!
+//! The interface unknown is `x`, the output of the second participant (displacement). One coupling
+//! iteration is one call of both participants; its residual is `r = x_tilde - x`.
+
+pub mod accelerate;
+pub mod criterion;
+pub mod dirichlet_neumann;
+pub mod error;
+pub mod march;
+pub mod observe;
+pub mod participant;
+pub mod policy;
+pub mod port;
+pub mod predict;
+pub mod record;
+pub mod transfer;
+mod vector;
+
+pub use accelerate::{Acceleration, Accelerator, AcceleratorState};
+pub use criterion::{Bound, Criterion};
+pub use error::{ParticipantError, SetupError, StepError, StepFailure};
+pub use march::{AtLimit, Choices, CouplingSettings, March, MarchState};
+pub use observe::Observer;
+pub use participant::{Change, Effort, NewtonLimit, Participant, PhaseTimes, Step};
+pub use policy::{Limits, NewtonPolicy, Policy};
+pub use port::{Block, Quantity};
+pub use predict::Predictor;
+pub use record::{FieldRecord, IterationRecord, Record, StepHistory, StepRecord};
+pub use transfer::{IdentityTransfer, MatrixTransfer, Transfer};

@@ -1,0 +1,49 @@
+//! Relaxation by a constant factor.
+
+use super::{Accelerator, AcceleratorState, Proposal, check_omega};
+use crate::error::SetupError;
+use crate::vector::add_scaled;
+
+/// `x <- x + omega r`.
+///
+/// With the Dirichlet-Neumann eigenvalues `lambda <= 0` the errors are multiplied by `1 - omega (1 - lambda)`
+/// an iteration: it converges for `omega < 2 / (1 - lambda_min)`.
+#[derive(Debug, Clone)]
+pub struct Constant {
+    omega: f64,
+}
+
+impl Constant {
+    /// Relaxation by `omega`.
+    ///
+    /// # Errors
+    /// When `omega` is not positive.
+    pub fn new(omega: f64) -> Result<Self, SetupError> {
+        check_omega(omega)?;
+        Ok(Self { omega })
+    }
+}
+
+impl Accelerator for Constant {
+    fn propose(&mut self, x: &mut [f64], r: &[f64]) -> Proposal {
+        add_scaled(self.omega, r, x);
+        Proposal::relaxation(self.omega)
+    }
+
+    fn step_converged(&mut self, _: &[f64], _: &[f64]) {}
+
+    fn step_failed(&mut self) {}
+
+    fn state(&self) -> AcceleratorState {
+        AcceleratorState::Constant
+    }
+
+    fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError> {
+        match state {
+            AcceleratorState::Constant => Ok(()),
+            AcceleratorState::Aitken { .. } => {
+                Err(SetupError::state("acceleration", "it is not that of a constant relaxation"))
+            }
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! When a step is done.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::SetupError;
+use crate::record::{FieldRecord, IterationRecord, StepHistory};
+
+/// A bound, relative or absolute.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Bound {
+    /// Relative to the natural scale of the quantity.
+    Relative(f64),
+    /// In the units of the quantity.
+    Absolute(f64),
+}
+
+/// The coupling criterion: a pure function of the step's history.
+///
+/// The iteration bound is no criterion. A step ends when the criterion holds *and* every field is below its
+/// own residual bound, see [`ends_step`](Self::ends_step).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Criterion {
+    /// Every part of every field changed by less than `tolerance` within the last coupling iteration, the
+    /// first one included.
+    Changes {
+        /// Bound of the relative changes.
+        tolerance: f64,
+    },
+    /// Every field met its own residual bound at the *entry* of its call, so it had nothing to do
+    /// (Spenke, Delaisse, Degroote, Hosters 2023). Needs no tolerance.
+    EntryResiduals,
+    /// `|r| < bound`, absolute \[m\] or relative to `|x_tilde|`.
+    InterfaceResidual(Bound),
+    /// Every one of these holds.
+    All(Vec<Criterion>),
+    /// At least one of these holds.
+    Any(Vec<Criterion>),
+}
+
+impl Criterion {
+    /// Whether the criterion holds after the last iteration of `history`. Before the first it never does.
+    #[must_use]
+    pub fn holds(&self, history: &StepHistory) -> bool {
+        history.last().is_some_and(|iteration| self.holds_after(iteration))
+    }
+
+    /// Whether the step may end: the criterion holds and every field is below its own residual bound.
+    #[must_use]
+    pub fn ends_step(&self, history: &StepHistory) -> bool {
+        self.holds(history)
+            && history.last().is_some_and(|iteration| iteration.fields.iter().all(|field| field.converged))
+    }
+
+    fn holds_after(&self, iteration: &IterationRecord) -> bool {
+        match self {
+            Self::Changes { tolerance } => {
+                iteration.fields.iter().all(|field| changes_below(field, *tolerance))
+            }
+            Self::EntryResiduals => iteration.fields.iter().all(|field| field.entry_converged),
+            Self::InterfaceResidual(Bound::Absolute(bound)) => iteration.residual < *bound,
+            Self::InterfaceResidual(Bound::Relative(bound)) => iteration.relative_residual < *bound,
+            Self::All(parts) => !parts.is_empty() && parts.iter().all(|part| part.holds_after(iteration)),
+            Self::Any(parts) => parts.iter().any(|part| part.holds_after(iteration)),
+        }
+    }
+
+    /// Checks the ranges of all tolerances.
+    ///
+    /// # Errors
+    /// When a tolerance is not positive, or a combination is empty.
+    pub fn validate(&self) -> Result<(), SetupError> {
+        match self {
+            Self::Changes { tolerance: value }
+            | Self::InterfaceResidual(Bound::Absolute(value) | Bound::Relative(value)) => {
+                if *value > 0.0 && value.is_finite() {
+                    return Ok(());
+                }
+                Err(SetupError::setting("criterion tolerance", value, "take a positive number"))
+            }
+            Self::EntryResiduals => Ok(()),
+            Self::All(parts) | Self::Any(parts) => {
+                if parts.is_empty() {
+                    return Err(SetupError::setting("criterion", "[]", "combine at least one criterion"));
+                }
+                parts.iter().try_for_each(Self::validate)
+            }
+        }
+    }
+}
+
+/// A field that reports no change at all has not said that it is unchanged.
+fn changes_below(field: &FieldRecord, tolerance: f64) -> bool {
+    !field.changes.is_empty() && field.changes.iter().all(|change| change.value < tolerance)
+}

@@ -1,0 +1,170 @@
+//! One time step of the Dirichlet-Neumann scheme: the one coupling loop of this crate.
+//!
+//! ```text
+//! x <- prediction
+//! k = 1, 2, ...
+//!     d = H x                    displacement at the first participant's points
+//!     f <- first(d)              load at the same points
+//!     F = H^T f                  total force and virtual work kept
+//!     x_tilde <- second(F)
+//!     r = x_tilde - x
+//!     criterion met -> leave;    else x <- accelerator(x, r)
+//! ```
+
+use std::time::Instant;
+
+use crate::error::StepFailure;
+use crate::march::{AtLimit, Choices};
+use crate::observe::Observer;
+use crate::participant::Participant;
+use crate::port::{self, Block};
+use crate::record::{FieldRecord, FieldSeconds, IterationRecord, Seconds, StepHistory};
+use crate::transfer::Transfers;
+use crate::vector::{dot, norm, ratio, subtract};
+
+/// The vectors at the interface, alive as long as the run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interface {
+    /// `x`: interface displacement at the second participant's points, as proposed.
+    pub x: Vec<f64>,
+    /// `x_tilde`: the same as the second participant answered.
+    pub x_tilde: Vec<f64>,
+    /// `r = x_tilde - x`.
+    pub r: Vec<f64>,
+    /// `d = H x`: displacement at the first participant's points.
+    pub displacement: Vec<f64>,
+    /// `f`: load at the first participant's points.
+    pub load: Vec<f64>,
+    /// `F = H^T f`: load at the second participant's points.
+    pub transferred_load: Vec<f64>,
+}
+
+impl Interface {
+    /// Zero vectors of the right lengths.
+    #[must_use]
+    pub fn new(first: &impl Participant, second: &impl Participant) -> Self {
+        let zeros = |blocks: &[Block]| vec![0.0; port::total_len(blocks)];
+        Self {
+            x: zeros(second.output()),
+            x_tilde: zeros(second.output()),
+            r: zeros(second.output()),
+            displacement: zeros(first.input()),
+            load: zeros(first.output()),
+            transferred_load: zeros(second.input()),
+        }
+    }
+
+    /// `|f . (H x) - (H^T f) . x| / (|f| |H x|)`, 0/0 = 0.
+    fn work_defect(&self) -> f64 {
+        let defect = dot(&self.load, &self.displacement) - dot(&self.transferred_load, &self.x);
+        ratio(defect.abs(), norm(&self.load) * norm(&self.displacement))
+    }
+}
+
+/// Iterates until the step is converged (`true`) or accepted at the iteration bound (`false`).
+///
+/// Both participants have begun the step, `interface.x` holds the prediction, `history` is empty. Nothing is
+/// committed here.
+///
+/// # Errors
+/// When a participant fails, a value at the interface is not finite, or the iteration bound is reached.
+///
+/// # Panics
+/// When the vectors of `interface` do not have the lengths of the participants' blocks.
+pub fn solve_step(
+    first: &mut impl Participant,
+    second: &mut impl Participant,
+    transfers: &Transfers,
+    choices: &mut Choices,
+    interface: &mut Interface,
+    history: &mut StepHistory,
+    observer: &mut dyn Observer,
+) -> Result<bool, StepFailure> {
+    let Choices { accelerator, policy, criterion, max_iterations, at_limit, .. } = choices;
+    for iteration in 1..=*max_iterations {
+        let limits = policy.limits(history);
+        let mut seconds = Seconds::default();
+        let mut clock = Instant::now();
+
+        transfers.apply(&interface.x, &mut interface.displacement);
+        seconds.transfer += lap(&mut clock);
+
+        let effort = first.advance(&interface.displacement, limits.first, &mut interface.load)?;
+        seconds.fields[0] = FieldSeconds { total: lap(&mut clock), phases: effort.time };
+        let first_record = FieldRecord::new(first.name(), limits.first, effort);
+        check_finite(&interface.load, first.name(), first.output())?;
+        accelerator.correct_first_output(&interface.x, &mut interface.load);
+        seconds.acceleration += lap(&mut clock);
+
+        transfers.apply_transpose(&interface.load, &mut interface.transferred_load);
+        seconds.transfer += lap(&mut clock);
+
+        let effort = second.advance(&interface.transferred_load, limits.second, &mut interface.x_tilde)?;
+        seconds.fields[1] = FieldSeconds { total: lap(&mut clock), phases: effort.time };
+        let second_record = FieldRecord::new(second.name(), limits.second, effort);
+        check_finite(&interface.x_tilde, second.name(), second.output())?;
+
+        subtract(&interface.x_tilde, &interface.x, &mut interface.r);
+        let residual = norm(&interface.r);
+        history.iterations.push(IterationRecord {
+            step: history.step.index,
+            iteration,
+            residual,
+            relative_residual: ratio(residual, norm(&interface.x_tilde)),
+            work_defect: interface.work_defect(),
+            fields: [first_record, second_record],
+            acceleration: None,
+            seconds,
+        });
+        let converged = criterion.ends_step(history);
+        let record = history.iterations.last_mut().expect("the record was just pushed");
+        if !converged && iteration < *max_iterations {
+            clock = Instant::now();
+            record.acceleration = Some(accelerator.propose(&mut interface.x, &interface.r));
+            record.seconds.acceleration += lap(&mut clock);
+            check_finite(&interface.x, "acceleration", second.output())?;
+        }
+        observer.iteration(record);
+        if converged {
+            return Ok(true);
+        }
+    }
+    match at_limit {
+        AtLimit::Fail => Err(too_many_iterations(history)),
+        AtLimit::Accept => Ok(false),
+    }
+}
+
+/// Seconds since `clock`, which starts anew.
+fn lap(clock: &mut Instant) -> f64 {
+    let now = Instant::now();
+    now.duration_since(std::mem::replace(clock, now)).as_secs_f64()
+}
+
+fn check_finite(values: &[f64], origin: &str, blocks: &[Block]) -> Result<(), StepFailure> {
+    match values.iter().position(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(index) => Err(StepFailure::NotFinite {
+            origin: origin.to_owned(),
+            place: port::place(blocks, index),
+            value: values[index],
+        }),
+    }
+}
+
+fn too_many_iterations(history: &StepHistory) -> StepFailure {
+    let last = history.last().expect("the iteration bound is at least one");
+    let open: Vec<&str> =
+        last.fields.iter().filter(|field| !field.converged).map(|field| field.name.as_str()).collect();
+    StepFailure::TooManyIterations {
+        iterations: history.iterations.len(),
+        residual: last.residual,
+        relative_residual: last.relative_residual,
+        largest_change: last.largest_change(),
+        open: if open.is_empty() {
+            "both fields below their own bounds".to_owned()
+        } else {
+            format!("above the own residual bound: {}", open.join(", "))
+        },
+    }
+}

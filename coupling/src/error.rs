@@ -1,0 +1,215 @@
+//! What can go wrong, where, and what to try.
+
+use std::error::Error;
+use std::fmt;
+
+use thiserror::Error;
+
+use crate::participant::Step;
+use crate::record::StepHistory;
+
+/// A field could not be advanced.
+#[derive(Debug)]
+pub struct ParticipantError {
+    /// The field's name.
+    pub field: String,
+    /// What happened and where, with units.
+    pub message: String,
+    /// What to try.
+    pub hint: Option<String>,
+    /// The field's own error.
+    pub source: Option<Box<dyn Error + Send + Sync>>,
+}
+
+impl ParticipantError {
+    /// An error of `field`; `message` says what happened and where.
+    #[must_use]
+    pub fn new(field: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { field: field.into(), message: message.into(), hint: None, source: None }
+    }
+
+    /// Adds what to try.
+    #[must_use]
+    pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// Keeps the error that caused this one.
+    #[must_use]
+    pub fn with_source(mut self, source: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
+        self.source = Some(source.into());
+        self
+    }
+}
+
+impl fmt::Display for ParticipantError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.field, self.message)?;
+        match &self.hint {
+            Some(hint) => write!(f, "\nhint: {hint}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Error for ParticipantError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        self.source.as_deref().map(|source| source as &(dyn Error + 'static))
+    }
+}
+
+/// A step could not be finished. Both fields are back at the committed state, so it can be tried again.
+#[derive(Debug, Error)]
+#[error("step {} (t = {} s), {}{cause}", step.index, step.time, place(*iteration))]
+pub struct StepError {
+    /// The step that failed.
+    pub step: Step,
+    /// The coupling iteration, counted from 1; 0 while the step was being opened.
+    pub iteration: usize,
+    /// What went wrong.
+    #[source]
+    pub cause: Box<StepFailure>,
+    /// The finished iterations of the step.
+    pub history: Box<StepHistory>,
+}
+
+fn place(iteration: usize) -> String {
+    if iteration == 0 { String::new() } else { format!("coupling iteration {iteration}, ") }
+}
+
+/// Why a step failed.
+#[derive(Debug, Error)]
+pub enum StepFailure {
+    /// A field gave up.
+    #[error(transparent)]
+    Participant(#[from] ParticipantError),
+    /// A number at the interface is not finite.
+    #[error(
+        "{origin}: {value} at {place}\nhint: the coupling iteration diverges or a field returned garbage; try a smaller relaxation factor, a quasi-Newton method or another time step"
+    )]
+    NotFinite {
+        /// Who produced it: a field's name or the acceleration.
+        origin: String,
+        /// Interface, point and component.
+        place: String,
+        /// The value.
+        value: f64,
+    },
+    /// The iteration bound was reached without convergence.
+    #[error(
+        "the step is not converged after {iterations} coupling iterations: |r| = {residual:.3e} m ({relative_residual:.3e} of the interface displacement), largest change {largest_change:.3e}, {open}\nhint: raise the iteration bound, use a quasi-Newton method, or check that the tolerances can be met"
+    )]
+    TooManyIterations {
+        /// The bound.
+        iterations: usize,
+        /// Norm of the interface residual in the last iteration.
+        residual: f64,
+        /// The same relative to the interface displacement.
+        relative_residual: f64,
+        /// Largest relative change of any part of any field in the last iteration.
+        largest_change: f64,
+        /// The fields that miss their own bound, in words.
+        open: String,
+    },
+}
+
+/// The parts of a coupled problem do not fit together.
+#[derive(Debug, Error, PartialEq)]
+pub enum SetupError {
+    /// The two participants and the transfers list different numbers of blocks.
+    #[error(
+        "{first} has {first_input} input and {first_output} output blocks, {second} has {second_input} and {second_output}, and there are {transfers} transfers\nhint: one block and one transfer an interface"
+    )]
+    BlockCount {
+        /// Name of the first participant.
+        first: String,
+        /// Name of the second participant.
+        second: String,
+        /// Input blocks of the first.
+        first_input: usize,
+        /// Output blocks of the first.
+        first_output: usize,
+        /// Input blocks of the second.
+        second_input: usize,
+        /// Output blocks of the second.
+        second_output: usize,
+        /// Transfers given.
+        transfers: usize,
+    },
+    /// Two blocks that meet do not agree.
+    #[error("interface {interface}: {problem}")]
+    BlockMismatch {
+        /// Name of the interface.
+        interface: String,
+        /// What disagrees.
+        problem: String,
+    },
+    /// A setting is out of its range.
+    #[error("{setting} = {value} is not allowed\nhint: {hint}")]
+    Setting {
+        /// Name of the setting.
+        setting: &'static str,
+        /// Its value.
+        value: String,
+        /// What is allowed.
+        hint: &'static str,
+    },
+    /// A transfer matrix has an entry that does not fit.
+    #[error("transfer row {row}: {problem}")]
+    TransferRow {
+        /// Row, that is point of the first participant.
+        row: usize,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A saved state belongs to other choices or to another interface.
+    #[error(
+        "the saved state of the {what} does not fit: {problem}\nhint: resume with the choices the state was saved with"
+    )]
+    State {
+        /// Whose state it is.
+        what: &'static str,
+        /// What disagrees.
+        problem: String,
+    },
+}
+
+impl SetupError {
+    pub(crate) fn setting(setting: &'static str, value: impl fmt::Display, hint: &'static str) -> Self {
+        Self::Setting { setting, value: value.to_string(), hint }
+    }
+
+    pub(crate) fn state(what: &'static str, problem: impl Into<String>) -> Self {
+        Self::State { what, problem: problem.into() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn step_error_names_step_iteration_field_and_remedy() {
+        let source = std::io::Error::other("element 7 is inverted");
+        let cause = ParticipantError::new("fluid", "mesh motion failed at (0.1, 0.2) m")
+            .with_hint("use a smaller time step")
+            .with_source(source);
+        let step = Step { index: 12, time: 0.12, dt: 0.01 };
+        let error = StepError {
+            step,
+            iteration: 7,
+            cause: Box::new(cause.into()),
+            history: Box::new(StepHistory::new(step)),
+        };
+        assert_eq!(
+            error.to_string(),
+            "step 12 (t = 0.12 s), coupling iteration 7, fluid: mesh motion failed at (0.1, 0.2) m\nhint: use a smaller time step"
+        );
+        let cause = error.source().expect("the cause is kept");
+        assert_eq!(
+            cause.source().expect("the field's own error is kept").to_string(),
+            "element 7 is inverted"
+        );
+    }
+}

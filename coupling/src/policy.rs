@@ -1,0 +1,131 @@
+//! How many Newton iterations the next calls may run: the question this workspace is built round.
+
+use serde::{Deserialize, Serialize};
+
+use crate::criterion::Criterion;
+use crate::error::SetupError;
+use crate::participant::NewtonLimit;
+use crate::record::StepHistory;
+
+/// The limits of the two calls of one coupling iteration.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Limits {
+    /// Limit of the first participant's call.
+    pub first: NewtonLimit,
+    /// Limit of the second participant's call.
+    pub second: NewtonLimit,
+}
+
+impl Limits {
+    /// The same limit for both.
+    #[must_use]
+    pub fn both(limit: NewtonLimit) -> Self {
+        Self { first: limit, second: limit }
+    }
+}
+
+/// Decides the limits of the next calls.
+pub trait NewtonPolicy: Send {
+    /// The limits of the iteration that follows the last one of `history`.
+    fn limits(&mut self, history: &StepHistory) -> Limits;
+
+    /// What the policy remembers from finished steps.
+    fn state(&self) -> PolicyState {
+        PolicyState::Stateless
+    }
+
+    /// Continues from a saved state.
+    ///
+    /// # Errors
+    /// When the state belongs to another policy.
+    fn restore(&mut self, state: &PolicyState) -> Result<(), SetupError> {
+        match state {
+            PolicyState::Stateless => Ok(()),
+        }
+    }
+}
+
+/// What a policy remembers between steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PolicyState {
+    /// Nothing: the limits follow from the step's own history.
+    #[default]
+    Stateless,
+}
+
+/// The policies a scene can name.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Policy {
+    /// The same limits in every iteration: (N^f, N^s).
+    Fixed {
+        /// Limit of the first participant.
+        first: NewtonLimit,
+        /// Limit of the second participant.
+        second: NewtonLimit,
+    },
+    /// Nm-CC: `at_most` Newton iterations a call until every change of the last coupling iteration is below
+    /// `tolerance`, then to convergence; back to `at_most` when a change grows again.
+    UntilCoupled {
+        /// The limit m while the coupling is open.
+        at_most: usize,
+        /// Bound of the relative changes, commonly that of the coupling criterion.
+        tolerance: f64,
+    },
+    /// Newton iterations until the field's output changes by less than `tolerance` in one of them.
+    ConvergedInterfaceData {
+        /// Bound of the relative change of the output.
+        tolerance: f64,
+    },
+}
+
+impl Policy {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// When a limit is zero or a tolerance is not positive.
+    pub fn validate(&self) -> Result<(), SetupError> {
+        match self {
+            Self::Fixed { first, second } => [first, second].into_iter().try_for_each(|limit| match limit {
+                NewtonLimit::AtMost(count) => check_count(*count),
+                NewtonLimit::ToConvergence => Ok(()),
+                NewtonLimit::UntilOutputSettles { tolerance } => check_tolerance(*tolerance),
+            }),
+            Self::UntilCoupled { at_most, tolerance } => {
+                check_count(*at_most)?;
+                check_tolerance(*tolerance)
+            }
+            Self::ConvergedInterfaceData { tolerance } => check_tolerance(*tolerance),
+        }
+    }
+}
+
+fn check_count(count: usize) -> Result<(), SetupError> {
+    if count > 0 {
+        return Ok(());
+    }
+    Err(SetupError::setting("Newton limit", count, "allow at least one Newton iteration a call"))
+}
+
+fn check_tolerance(tolerance: f64) -> Result<(), SetupError> {
+    if tolerance > 0.0 && tolerance.is_finite() {
+        return Ok(());
+    }
+    Err(SetupError::setting("Newton policy tolerance", tolerance, "take a positive number"))
+}
+
+impl NewtonPolicy for Policy {
+    fn limits(&mut self, history: &StepHistory) -> Limits {
+        match *self {
+            Self::Fixed { first, second } => Limits { first, second },
+            Self::UntilCoupled { at_most, tolerance } => {
+                let coupled = Criterion::Changes { tolerance }.holds(history);
+                Limits::both(if coupled { NewtonLimit::ToConvergence } else { NewtonLimit::AtMost(at_most) })
+            }
+            Self::ConvergedInterfaceData { tolerance } => {
+                Limits::both(NewtonLimit::UntilOutputSettles { tolerance })
+            }
+        }
+    }
+}

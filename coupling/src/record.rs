@@ -1,0 +1,260 @@
+//! What a run leaves behind: one record a coupling iteration, one a step.
+//!
+//! Records are plain data with a fixed order of fields, made for JSON lines. Everything that depends on the
+//! machine's speed stands in the fields named `seconds`, and `without_seconds` strips it.
+
+use std::ops::AddAssign;
+
+use serde::{Deserialize, Serialize};
+
+use crate::accelerate::Proposal;
+use crate::participant::{Change, Effort, NewtonLimit, PhaseTimes, Step};
+
+/// One line of a run's record: `{"iteration": {...}}` or `{"step": {...}}`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Record {
+    /// A coupling iteration.
+    Iteration(IterationRecord),
+    /// A finished step.
+    Step(StepRecord),
+}
+
+/// One call of one field.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FieldRecord {
+    /// The field.
+    pub name: String,
+    /// The limit it was given.
+    pub limit: NewtonLimit,
+    /// Newton iterations.
+    pub newton: usize,
+    /// Assemblies of the residual.
+    pub assemblies: usize,
+    /// Numeric factorizations.
+    pub factorizations: usize,
+    /// Linear solves.
+    pub solves: usize,
+    /// Residual at entry, as the field's bound measures it.
+    #[serde(with = "finite_or_null")]
+    pub entry_residual: f64,
+    /// Residual at exit.
+    #[serde(with = "finite_or_null")]
+    pub residual: f64,
+    /// Whether the field met its bound at entry.
+    pub entry_converged: bool,
+    /// Whether the field meets its bound at exit.
+    pub converged: bool,
+    /// Relative change of every part of the solution.
+    pub changes: Vec<Change>,
+}
+
+impl FieldRecord {
+    /// The record of a call of `name` under `limit`.
+    #[must_use]
+    pub fn new(name: &str, limit: NewtonLimit, effort: Effort) -> Self {
+        Self {
+            name: name.to_owned(),
+            limit,
+            newton: effort.newton,
+            assemblies: effort.assemblies,
+            factorizations: effort.factorizations,
+            solves: effort.solves,
+            entry_residual: effort.entry_residual,
+            residual: effort.residual,
+            entry_converged: effort.entry_converged,
+            converged: effort.converged,
+            changes: effort.changes,
+        }
+    }
+}
+
+/// One coupling iteration: one call of both fields.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct IterationRecord {
+    /// Number of the step, counted from 1.
+    pub step: usize,
+    /// Number of the coupling iteration, counted from 1.
+    pub iteration: usize,
+    /// `|x_tilde - x|` \[m\].
+    pub residual: f64,
+    /// `|x_tilde - x| / |x_tilde|`, 0/0 = 0.
+    #[serde(with = "finite_or_null")]
+    pub relative_residual: f64,
+    /// `|f . (H x) - F . x| / (|f| |H x|)`: the virtual work lost in the transfer, 0/0 = 0.
+    pub work_defect: f64,
+    /// The calls of the first and of the second field.
+    pub fields: [FieldRecord; 2],
+    /// What the acceleration did; nothing in the last iteration of a step.
+    pub acceleration: Option<Proposal>,
+    /// Where the time went.
+    pub seconds: Seconds,
+}
+
+impl IterationRecord {
+    /// Largest relative change of any part of any field.
+    #[must_use]
+    pub fn largest_change(&self) -> f64 {
+        self.fields.iter().flat_map(|field| &field.changes).map(|change| change.value).fold(0.0, f64::max)
+    }
+
+    /// The record without its times.
+    #[must_use]
+    pub fn without_seconds(&self) -> Self {
+        Self { seconds: Seconds::default(), ..self.clone() }
+    }
+}
+
+/// Sums over the calls of one field.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FieldTotals {
+    /// The field.
+    pub name: String,
+    /// Calls.
+    pub calls: usize,
+    /// Newton iterations.
+    pub newton: usize,
+    /// Assemblies of the residual.
+    pub assemblies: usize,
+    /// Numeric factorizations.
+    pub factorizations: usize,
+    /// Linear solves.
+    pub solves: usize,
+}
+
+/// One finished step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StepRecord {
+    /// Number of the step, counted from 1.
+    pub step: usize,
+    /// The time at its end \[s\].
+    pub time: f64,
+    /// Its size \[s\].
+    pub dt: f64,
+    /// Whether the criterion was met; `false` only where steps at the iteration bound are accepted.
+    pub converged: bool,
+    /// Coupling iterations.
+    pub iterations: usize,
+    /// `|r|` of the last iteration \[m\].
+    pub residual: f64,
+    /// Largest relative change of the last iteration.
+    #[serde(with = "finite_or_null")]
+    pub largest_change: f64,
+    /// Sums over the calls of the first and of the second field.
+    pub fields: [FieldTotals; 2],
+    /// Where the time went.
+    pub seconds: Seconds,
+}
+
+impl StepRecord {
+    /// The summary of the iterations of a step.
+    ///
+    /// # Panics
+    /// When the history is empty.
+    #[must_use]
+    pub fn new(history: &StepHistory, converged: bool) -> Self {
+        let last = history.last().expect("a finished step has at least one iteration");
+        let mut seconds = Seconds::default();
+        for iteration in &history.iterations {
+            seconds += iteration.seconds;
+        }
+        Self {
+            step: history.step.index,
+            time: history.step.time,
+            dt: history.step.dt,
+            converged,
+            iterations: history.iterations.len(),
+            residual: last.residual,
+            largest_change: last.largest_change(),
+            fields: [history.totals(0), history.totals(1)],
+            seconds,
+        }
+    }
+
+    /// The record without its times.
+    #[must_use]
+    pub fn without_seconds(&self) -> Self {
+        Self { seconds: Seconds::default(), ..self.clone() }
+    }
+}
+
+/// The iterations of one step so far.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StepHistory {
+    /// The step.
+    pub step: Step,
+    /// Its iterations, oldest first.
+    pub iterations: Vec<IterationRecord>,
+}
+
+impl StepHistory {
+    /// The history of a step that has not begun to iterate.
+    #[must_use]
+    pub fn new(step: Step) -> Self {
+        Self { step, iterations: Vec::new() }
+    }
+
+    /// The latest iteration.
+    #[must_use]
+    pub fn last(&self) -> Option<&IterationRecord> {
+        self.iterations.last()
+    }
+
+    fn totals(&self, field: usize) -> FieldTotals {
+        let mut totals = FieldTotals::default();
+        for call in self.iterations.iter().map(|iteration| &iteration.fields[field]) {
+            totals.name.clone_from(&call.name);
+            totals.calls += 1;
+            totals.newton += call.newton;
+            totals.assemblies += call.assemblies;
+            totals.factorizations += call.factorizations;
+            totals.solves += call.solves;
+        }
+        totals
+    }
+}
+
+/// Wall-clock seconds of one call, and the phases the field itself measured.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct FieldSeconds {
+    /// The whole call \[s\].
+    pub total: f64,
+    /// Phases inside it.
+    pub phases: PhaseTimes,
+}
+
+/// Wall-clock seconds of an iteration or a step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Seconds {
+    /// The first and the second field.
+    pub fields: [FieldSeconds; 2],
+    /// `H x` and `H^T f` \[s\].
+    pub transfer: f64,
+    /// The accelerator \[s\].
+    pub acceleration: f64,
+}
+
+impl AddAssign for Seconds {
+    fn add_assign(&mut self, other: Self) {
+        for (sum, field) in self.fields.iter_mut().zip(other.fields) {
+            sum.total += field.total;
+            sum.phases += field.phases;
+        }
+        self.transfer += other.transfer;
+        self.acceleration += other.acceleration;
+    }
+}
+
+/// JSON knows no infinity: a ratio to zero is written as `null` and read back as infinity.
+pub(crate) mod finite_or_null {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature is serde's")]
+    pub(crate) fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        value.is_finite().then_some(*value).serialize(serializer)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::<f64>::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+    }
+}

@@ -1,0 +1,77 @@
+//! The Newton loop that every field runs.
+//!
+//! A field implements [`Problem`] and calls [`solve`]; how many iterations a call may take is the caller's
+//! [`Limit`], and a callback after each iteration may stop it early.
+
+mod failure;
+mod norm;
+mod run;
+mod settings;
+
+pub use failure::Failure;
+pub use norm::{Bound, ResidualNorm};
+pub use run::solve;
+pub use settings::{Check, Limit, Settings};
+
+/// A nonlinear system R(s) = 0 together with its current iterate s.
+pub trait Problem {
+    /// What may go wrong in an assembly or a linear solve.
+    type Error;
+
+    /// Evaluates the residual at the current iterate, and its tangent dR/ds where `with_tangent` says so.
+    ///
+    /// # Errors
+    ///
+    /// If the residual cannot be evaluated, for instance in an inverted element.
+    fn assemble(&mut self, with_tangent: bool) -> Result<ResidualNorm, Self::Error>;
+
+    /// Factors the tangent of the last assembly, solves (dR/ds) ds = -R and adds ds to the iterate.
+    ///
+    /// # Errors
+    ///
+    /// If the tangent is singular.
+    fn solve_and_update(&mut self) -> Result<(), Self::Error>;
+}
+
+/// What a callback wants after an iteration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Go on if the loop would.
+    Continue,
+    /// Leave the loop at this iterate.
+    Stop,
+}
+
+/// One finished iteration, as a callback sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Iteration {
+    /// The number of the iteration within this call, from 1.
+    pub index: usize,
+    /// The residual before its solve.
+    pub before: ResidualNorm,
+    /// The residual at the new iterate.
+    pub after: ResidualNorm,
+}
+
+/// What a call of [`solve`] cost and reached.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Report {
+    /// Newton iterations: linear solves that moved the iterate.
+    pub iterations: usize,
+    /// Residual evaluations, the one at the exit included.
+    pub assemblies: usize,
+    /// Numeric factorizations of the tangent.
+    pub factorizations: usize,
+    /// Linear solves.
+    pub solves: usize,
+    /// The residual at the first iterate, evaluated in this call.
+    pub entry: ResidualNorm,
+    /// The residual at the last iterate, evaluated there.
+    pub exit: ResidualNorm,
+    /// Whether the bound was met where [`Check`] looks.
+    pub converged: bool,
+    /// Whether the callback ended the loop.
+    pub stopped_by_callback: bool,
+    /// Whether the residual stood still at round-off, above its bound.
+    pub stagnated: bool,
+}

@@ -1,0 +1,68 @@
+//! How a Newton loop fails.
+
+use super::{Bound, ResidualNorm};
+
+/// A Newton loop that ended without a usable iterate.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Failure<E> {
+    /// The field could not assemble or solve.
+    #[error("Newton iteration {iteration}: the system could not be assembled or solved")]
+    Problem {
+        /// The iteration, from 1; 0 is the evaluation at the entry.
+        iteration: usize,
+        /// What the field reports.
+        source: E,
+    },
+    /// The residual is infinite or not a number.
+    #[error(
+        "Newton iteration {iteration}: the residual is not finite: {residual}\n\
+         hint: check the input of this call, or take a smaller time step"
+    )]
+    NotFinite {
+        /// The iteration, from 1; 0 is the evaluation at the entry.
+        iteration: usize,
+        /// The residual there.
+        residual: ResidualNorm,
+    },
+    /// The residual exploded.
+    #[error(
+        "Newton iteration {iteration}: the residual grew from {entry} to {residual}\n\
+         hint: take a smaller time step or load step, or start from a better guess"
+    )]
+    Diverged {
+        /// The iteration, from 1.
+        iteration: usize,
+        /// The residual at the entry.
+        entry: ResidualNorm,
+        /// The residual at this iteration.
+        residual: ResidualNorm,
+    },
+    /// The bound was not met within the allowed iterations.
+    #[error(
+        "residual {residual} after {iterations} Newton iterations, from {entry}; the bound is {bound}\n\
+         hint: a residual that still falls needs more iterations, one that does not a smaller time step"
+    )]
+    TooManyIterations {
+        /// The iterations done.
+        iterations: usize,
+        /// The residual at the entry.
+        entry: ResidualNorm,
+        /// The residual at the last iterate.
+        residual: ResidualNorm,
+        /// The bound that was missed.
+        bound: Bound,
+    },
+    /// The residual stands still at round-off, above its bound.
+    #[error(
+        "Newton iteration {iteration}: the residual stands still at {residual}; the bound is {bound}\n\
+         hint: this is round-off: the bound asks for more than the arithmetic can give"
+    )]
+    Stagnated {
+        /// The iteration, from 1.
+        iteration: usize,
+        /// The residual there.
+        residual: ResidualNorm,
+        /// The bound that cannot be met.
+        bound: Bound,
+    },
+}

@@ -1,0 +1,169 @@
+//! The loop itself.
+
+use super::{Check, Failure, Iteration, Limit, Problem, Report, ResidualNorm, Settings, Verdict};
+
+/// Runs Newton iterations on `problem` from its current iterate until the bound is met, `limit` is reached
+/// or the callback `after` says stop.
+///
+/// ```text
+/// evaluate R at the entry
+/// repeat   Before: |R| below its bound? converged
+///          limit reached? leave
+///          (dR/ds) ds = -R,  s <- s + ds,  evaluate R
+///          not finite, exploded, standing still? fail
+///          Lagged: |R| before this solve below its bound? converged
+///          callback says stop? leave
+/// ```
+///
+/// The entry residual is evaluated in every call, whatever an earlier call left behind. The callback sees
+/// every iteration, the last one included. The residual of the report, and all that the problem assembled
+/// with it, belongs to the last iterate. The tangent is assembled only where another iteration can follow.
+///
+/// ```
+/// use partita_numerics::newton::{self, Limit, Problem, ResidualNorm, Settings, Verdict};
+///
+/// /// x^2 = 2.
+/// struct Root { x: f64 }
+///
+/// impl Problem for Root {
+///     type Error = std::convert::Infallible;
+///     fn assemble(&mut self, _with_tangent: bool) -> Result<ResidualNorm, Self::Error> {
+///         Ok(ResidualNorm::new((self.x * self.x - 2.0).abs(), 2.0))
+///     }
+///     fn solve_and_update(&mut self) -> Result<(), Self::Error> {
+///         self.x -= (self.x * self.x - 2.0) / (2.0 * self.x);
+///         Ok(())
+///     }
+/// }
+///
+/// let mut root = Root { x: 1.0 };
+/// let report = newton::solve(&mut root, &Settings::default(), Limit::ToConvergence, |_, _| Verdict::Continue)?;
+/// assert!(report.converged && report.iterations == 4);
+/// assert!((root.x - 2_f64.sqrt()).abs() < 1e-11);
+/// # Ok::<(), newton::Failure<std::convert::Infallible>>(())
+/// ```
+///
+/// # Errors
+///
+/// If the problem fails, or the residual is not finite or explodes. With [`Limit::ToConvergence`] also if the
+/// bound is not met within [`Settings::max_iterations`] or the residual stands still at round-off; with
+/// [`Limit::AtMost`] the report says so instead.
+pub fn solve<P: Problem>(
+    problem: &mut P,
+    settings: &Settings,
+    limit: Limit,
+    mut after: impl FnMut(&mut P, &Iteration) -> Verdict,
+) -> Result<Report, Failure<P::Error>> {
+    let bound = settings.bound;
+    let lagged = settings.check == Check::Lagged;
+    let most = match limit {
+        Limit::AtMost(iterations) => iterations,
+        Limit::ToConvergence => settings.max_iterations,
+    };
+    let entry = assemble(problem, 0, most > 0)?;
+    let mut report = Report::at_entry(entry);
+    let mut watch = Watch::new(entry);
+    report.converged = !lagged && bound.met(&entry);
+    while !report.converged && !report.stopped_by_callback && report.iterations < most {
+        let index = report.iterations + 1;
+        let before = report.exit;
+        problem.solve_and_update().map_err(|source| Failure::Problem { iteration: index, source })?;
+        let is_last = index == most || (lagged && bound.met(&before));
+        let residual = assemble(problem, index, !is_last)?;
+        report.count(residual);
+        report.converged = bound.met(if lagged { &before } else { &residual });
+        watch.check_growth(index, residual, settings.divergence_factor)?;
+        report.stagnated = watch.stands_still(residual) && !report.converged;
+        if report.stagnated && limit == Limit::ToConvergence {
+            return Err(Failure::Stagnated { iteration: index, residual, bound });
+        }
+        let verdict = after(problem, &Iteration { index, before, after: residual });
+        report.stopped_by_callback = verdict == Verdict::Stop;
+    }
+    if limit == Limit::ToConvergence && !report.converged && !report.stopped_by_callback {
+        let Report { iterations, exit: residual, .. } = report;
+        return Err(Failure::TooManyIterations { iterations, entry, residual, bound });
+    }
+    Ok(report)
+}
+
+/// Assembles and refuses a residual that is not finite.
+fn assemble<P: Problem>(
+    problem: &mut P,
+    iteration: usize,
+    with_tangent: bool,
+) -> Result<ResidualNorm, Failure<P::Error>> {
+    let residual = problem.assemble(with_tangent).map_err(|source| Failure::Problem { iteration, source })?;
+    if residual.is_finite() { Ok(residual) } else { Err(Failure::NotFinite { iteration, residual }) }
+}
+
+impl Report {
+    fn at_entry(entry: ResidualNorm) -> Self {
+        Self {
+            iterations: 0,
+            assemblies: 1,
+            factorizations: 0,
+            solves: 0,
+            entry,
+            exit: entry,
+            converged: false,
+            stopped_by_callback: false,
+            stagnated: false,
+        }
+    }
+
+    fn count(&mut self, exit: ResidualNorm) {
+        self.iterations += 1;
+        self.assemblies += 1;
+        self.factorizations += 1;
+        self.solves += 1;
+        self.exit = exit;
+    }
+}
+
+/// Below this relative residual a standstill is round-off; above it, it is a hard problem.
+const ROUND_OFF: f64 = 1e-8;
+/// A residual stands still once it has not fallen by `DECREASE` in `PATIENCE` iterations.
+const PATIENCE: usize = 3;
+const DECREASE: f64 = 0.9;
+
+/// Watches the residuals of one call for growth and for standstill.
+struct Watch {
+    entry: ResidualNorm,
+    /// The size a residual is compared with: that of the entry and of its terms, or the first one above zero.
+    reference: f64,
+    lowest: f64,
+    since_lowest: usize,
+}
+
+impl Watch {
+    fn new(entry: ResidualNorm) -> Self {
+        let reference = entry.absolute.max(entry.scale());
+        Self { entry, reference, lowest: entry.absolute, since_lowest: 0 }
+    }
+
+    fn check_growth<E>(
+        &mut self,
+        iteration: usize,
+        residual: ResidualNorm,
+        factor: f64,
+    ) -> Result<(), Failure<E>> {
+        if self.reference == 0.0 {
+            self.reference = residual.absolute.max(residual.scale());
+        }
+        if residual.absolute > factor * self.reference {
+            return Err(Failure::Diverged { iteration, entry: self.entry, residual });
+        }
+        Ok(())
+    }
+
+    fn stands_still(&mut self, residual: ResidualNorm) -> bool {
+        if residual.absolute < DECREASE * self.lowest {
+            self.lowest = residual.absolute;
+            self.since_lowest = 0;
+        } else {
+            self.since_lowest += 1;
+        }
+        residual.relative < ROUND_OFF && self.since_lowest >= PATIENCE
+    }
+}

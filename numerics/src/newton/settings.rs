@@ -1,0 +1,56 @@
+//! When a Newton loop ends.
+
+use serde::{Deserialize, Serialize};
+
+use super::Bound;
+
+/// Where the loop compares the residual with its bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Check {
+    /// Before each solve: a call that enters converged costs no iteration.
+    #[default]
+    Before,
+    /// After each solve, on the residual from before that solve: a call that enters converged costs one
+    /// iteration, and every call one more than it needs.
+    Lagged,
+}
+
+/// The rules of a Newton loop, the same for every call.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Settings {
+    /// The bound of the residual.
+    pub bound: Bound,
+    /// Where the residual is compared with it.
+    pub check: Check,
+    /// After so many iterations [`Limit::ToConvergence`] gives up.
+    pub max_iterations: usize,
+    /// The loop has diverged once the residual exceeds this many times the larger of the entry residual and
+    /// its scale.
+    ///
+    /// Far above one: the first iteration of a slender structure may well raise the residual by orders of
+    /// magnitude before it falls.
+    pub divergence_factor: f64,
+}
+
+impl Default for Settings {
+    /// Relative bound 1e-10, checked before each solve, at most 50 iterations, diverged at 1e10.
+    fn default() -> Self {
+        Self {
+            bound: Bound::Relative(1e-10),
+            check: Check::Before,
+            max_iterations: 50,
+            divergence_factor: 1e10,
+        }
+    }
+}
+
+/// How far one call may go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Limit {
+    /// At most so many iterations; to reach the limit is not an error.
+    AtMost(usize),
+    /// Until the bound is met; to miss it is an error.
+    ToConvergence,
+}

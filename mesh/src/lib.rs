@@ -10,6 +10,7 @@
 //! | [`simplex`] | measure, centroid and shape-function gradients of one simplex |
 //! | [`quality`] | measures and an isotropic shape quality of all cells |
 //! | [`motion`] | moving the mesh with its boundary |
+//! | [`vtu`] | VTK files: unstructured grids and collections over time |
 //!
 //! Everything is generic in the dimension `D`; coordinates are `f64`, in metres by convention.
 //!
@@ -37,6 +38,7 @@ pub mod motion;
 pub mod quality;
 pub mod simplex;
 pub mod topology;
+pub mod vtu;
 
 pub use cell::{CellKind, Cells};
 pub use error::{MeshError, Place};

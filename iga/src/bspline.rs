@@ -67,6 +67,24 @@ pub fn derivatives(knots: &Knots, span: usize, xi: f64, order: usize, table: &mu
     }
 }
 
+/// Blossoms `N_a[xi_1, ..., xi_degree]` of the basis functions that live on a span.
+///
+/// The blossom of a polynomial of degree `p` is the one symmetric function of `p` arguments, affine in each, that
+/// equals the polynomial where all arguments are equal: Cox-de Boor with another argument at each step.
+/// With the arguments `t_{i+1}, ..., t_{i+p}`, consecutive knots of a finer vector, and the span that holds `t_i`,
+/// the results are the coefficients of the Oslo algorithm: not negative, and one in sum.
+///
+/// # Panics
+/// When `arguments` does not hold `degree` or `values` not `degree + 1` numbers.
+pub fn blossom(knots: &Knots, span: usize, arguments: &[f64], values: &mut [f64]) {
+    assert_eq!(arguments.len(), knots.degree(), "a blossom has as many arguments as the degree");
+    assert_eq!(values.len(), knots.degree() + 1, "a span has degree + 1 basis functions");
+    values[0] = 1.0;
+    for (q, xi) in (1..).zip(arguments) {
+        raise(knots.values(), span, q, *xi, values);
+    }
+}
+
 /// Turns the values of degree `q - 1` into those of degree `q`, in place.
 fn raise(knots: &[f64], span: usize, q: usize, xi: f64, values: &mut [f64]) {
     let mut carried = 0.0;

@@ -253,6 +253,16 @@ pub enum KnotError {
         /// The value found there.
         value: f64,
     },
+    /// A knot to be inserted does not lie inside the domain.
+    #[error("no knot can be inserted at {value}\nhint: choose a place inside ({start}, {end})")]
+    Outside {
+        /// The knot asked for.
+        value: f64,
+        /// First knot.
+        start: f64,
+        /// Last knot.
+        end: f64,
+    },
     /// An end of the vector does not stand `degree + 1` times.
     #[error(
         "the knot at the {} stands {found} times\nhint: repeat it {needed} times (degree + 1), so that the spline \

@@ -25,10 +25,14 @@ mod basis;
 pub mod bspline;
 pub mod build;
 mod element;
+pub mod fit;
 mod knots;
 pub mod nurbs;
+pub mod project;
+mod refine;
 mod side;
 mod spline;
+pub mod transfer;
 
 pub use basis::{BasisValues, Derivatives};
 pub use element::Element;

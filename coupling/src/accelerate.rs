@@ -6,13 +6,27 @@
 
 mod aitken;
 mod constant;
+mod filter;
+mod history;
+mod iqn_ils;
+mod iqn_imvls;
+mod iqn_mvj;
+mod qr;
+
+use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
 pub use aitken::Aitken;
 pub use constant::Constant;
+pub use filter::Filter;
+pub use history::{Column, Columns};
+pub use iqn_ils::IqnIls;
+pub use iqn_imvls::{IqnImvls, StepInverse};
+pub use iqn_mvj::IqnMvj;
 
 use crate::error::SetupError;
+use crate::vector::add_scaled;
 
 /// Turns `(x, r)` into the next interface displacement.
 pub trait Accelerator: Send {
@@ -98,6 +112,12 @@ pub enum Acceleration {
         /// The factor of the very first iteration, and the largest one at the first iteration of a step.
         omega_0: f64,
     },
+    /// Interface quasi-Newton with a least-squares model, columns of earlier steps reused.
+    IqnIls(QuasiNewton),
+    /// Interface quasi-Newton, implicit multi-vector update: linear cost.
+    IqnImvls(QuasiNewton),
+    /// Interface quasi-Newton, dense multi-vector Jacobian: quadratic cost, for small interfaces.
+    IqnMvj(QuasiNewton),
 }
 
 impl Acceleration {
@@ -109,6 +129,9 @@ impl Acceleration {
         Ok(match *self {
             Self::Constant { omega } => Box::new(Constant::new(omega)?),
             Self::Aitken { omega_0 } => Box::new(Aitken::new(omega_0, size)?),
+            Self::IqnIls(settings) => Box::new(IqnIls::new(settings, size)?),
+            Self::IqnImvls(settings) => Box::new(IqnImvls::new(settings, size)?),
+            Self::IqnMvj(settings) => Box::new(IqnMvj::new(settings, size)?),
         })
     }
 }
@@ -124,6 +147,65 @@ pub enum AcceleratorState {
         /// The factor.
         omega: Option<f64>,
     },
+    /// The columns of the last steps.
+    IqnIls {
+        /// The columns, newest first.
+        columns: Columns,
+    },
+    /// The factored columns of the last steps.
+    IqnImvls {
+        /// The steps, newest first.
+        steps: VecDeque<StepInverse>,
+    },
+    /// The dense Jacobian.
+    IqnMvj {
+        /// `J`, row by row; empty before the first step with columns.
+        jacobian: Vec<f64>,
+        /// The columns of the last steps, newest first, where the history is limited.
+        past: VecDeque<Columns>,
+    },
+}
+
+/// Settings of the interface quasi-Newton methods.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct QuasiNewton {
+    /// Relaxation factor where no column is known: the first iteration of a run.
+    pub omega_0: f64,
+    /// Steps before the current one whose columns are used; `None` is all of them, 0 none.
+    pub history: Option<usize>,
+    /// Which columns may stay.
+    pub filter: Filter,
+    /// Whether the first iteration of each step is relaxed by `omega_0` even when earlier steps are known.
+    pub relax_first_iteration: bool,
+    /// Whether the differences to the last iteration of a converged step are kept too; some codes drop them.
+    pub keep_last_differences: bool,
+}
+
+impl Default for QuasiNewton {
+    /// `omega_0` 0.1, five steps, QR3 at 1e-2, no relaxation where there is history, all differences kept.
+    fn default() -> Self {
+        Self {
+            omega_0: 0.1,
+            history: Some(5),
+            filter: Filter::default(),
+            relax_first_iteration: false,
+            keep_last_differences: true,
+        }
+    }
+}
+
+impl QuasiNewton {
+    fn validate(&self) -> Result<(), SetupError> {
+        check_omega(self.omega_0)?;
+        self.filter.validate()
+    }
+}
+
+/// `x <- x + omega r`, where a quasi-Newton method has nothing to go by.
+fn relax(omega: f64, x: &mut [f64], r: &[f64], dropped: Vec<DroppedColumn>) -> Proposal {
+    add_scaled(omega, r, x);
+    Proposal { dropped, ..Proposal::relaxation(omega) }
 }
 
 /// A relaxation factor must be positive; factors above one overrelax and are allowed.

@@ -39,11 +39,9 @@ impl Accelerator for Constant {
     }
 
     fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError> {
-        match state {
-            AcceleratorState::Constant => Ok(()),
-            AcceleratorState::Aitken { .. } => {
-                Err(SetupError::state("acceleration", "it is not that of a constant relaxation"))
-            }
+        if *state == AcceleratorState::Constant {
+            return Ok(());
         }
+        Err(SetupError::state("acceleration", "it is not that of a constant relaxation"))
     }
 }

@@ -1,0 +1,219 @@
+//! Secant columns: what the iterations have told about the interface.
+//!
+//! Within a step, `v_j = r^j - r^{j-1}` and `w_j = x_tilde^j - x_tilde^{j-1}`; no column spans two steps.
+
+use std::collections::VecDeque;
+
+use serde::{Deserialize, Serialize};
+
+use super::filter::Filter;
+use super::qr::Qr;
+use super::{DropReason, DroppedColumn};
+use crate::vector::{add_scaled, subtract};
+
+/// One pair of differences, as plain data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Column {
+    /// Difference of the residuals.
+    pub v: Vec<f64>,
+    /// Difference of the outputs `x_tilde`.
+    pub w: Vec<f64>,
+    /// `J_prev v`, where the method has a Jacobian from earlier steps; else empty.
+    pub jv: Vec<f64>,
+}
+
+/// The columns of some steps, newest first, as plain data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Columns {
+    /// The columns, newest first.
+    pub all: VecDeque<Column>,
+    /// How many of them each step made, newest step first.
+    pub per_step: VecDeque<usize>,
+}
+
+impl Columns {
+    /// No columns in one step, the current one.
+    pub(crate) fn new() -> Self {
+        Self { all: VecDeque::new(), per_step: VecDeque::from([0]) }
+    }
+
+    /// Whether the counts add up and all vectors have `size` entries.
+    pub(crate) fn fit(&self, size: usize) -> bool {
+        !self.per_step.is_empty()
+            && self.per_step.iter().sum::<usize>() == self.all.len()
+            && self.all.iter().all(|column| column.v.len() == size && column.w.len() == size)
+    }
+
+    /// Ends the current step and forgets steps older than the last `history` ones. A step without columns
+    /// leaves no trace.
+    pub(crate) fn end_step(&mut self, history: Option<usize>) {
+        if self.per_step[0] > 0 {
+            self.per_step.push_front(0);
+        }
+        while history.is_some_and(|steps| self.per_step.len() > steps + 1) {
+            let oldest = self.per_step.pop_back().expect("there is at least the current step");
+            self.all.truncate(self.all.len() - oldest);
+        }
+    }
+
+    fn push(&mut self, column: Column) {
+        self.all.push_front(column);
+        self.per_step[0] += 1;
+    }
+
+    /// The step and the place in it of the column at `index`.
+    fn place(&self, index: usize) -> (usize, usize) {
+        let mut column = index;
+        for (steps_ago, &count) in self.per_step.iter().enumerate() {
+            if column < count {
+                return (steps_ago, column);
+            }
+            column -= count;
+        }
+        unreachable!("column {index} of {}", self.all.len())
+    }
+
+    fn remove(&mut self, index: usize) {
+        let (steps_ago, _) = self.place(index);
+        self.all.remove(index);
+        self.per_step[steps_ago] -= 1;
+    }
+}
+
+/// One iterate: `x_tilde`, `r` and `J_prev r`.
+#[derive(Debug, Clone)]
+struct Iterate {
+    x_tilde: Vec<f64>,
+    r: Vec<f64>,
+    jr: Vec<f64>,
+}
+
+/// Columns under construction, with the factorization of their `V`.
+#[derive(Debug, Clone)]
+pub(crate) struct Secants {
+    filter: Filter,
+    columns: Columns,
+    qr: Qr,
+    /// Whether `qr` belongs to `columns`.
+    factored: bool,
+    last: Option<Iterate>,
+    /// `-c`, the least-squares solution of `min |V c + r|` with its sign turned.
+    solution: Vec<f64>,
+}
+
+impl Secants {
+    pub(crate) fn new(filter: Filter) -> Self {
+        Self {
+            filter,
+            columns: Columns::new(),
+            qr: Qr::default(),
+            factored: true,
+            last: None,
+            solution: Vec::new(),
+        }
+    }
+
+    /// The factored `columns`, without those that round-off makes dependent.
+    pub(crate) fn from_columns(columns: Columns) -> Self {
+        let mut secants = Self::new(Filter::None);
+        let dropped = Filter::None.rebuild(&mut secants.qr, &columns.all);
+        secants.columns = columns;
+        secants.remove(&dropped);
+        secants
+    }
+
+    /// Starts a step with `columns` of earlier ones. The factorization is built anew at the first iteration,
+    /// so that a resumed run repeats every rounding.
+    pub(crate) fn start_step(&mut self, columns: Columns) {
+        self.factored = columns.all.is_empty();
+        self.columns = columns;
+        self.qr.clear();
+        self.last = None;
+    }
+
+    pub(crate) fn columns(&self) -> &Columns {
+        &self.columns
+    }
+
+    pub(crate) fn qr(&self) -> &Qr {
+        &self.qr
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.columns.all.len()
+    }
+
+    /// Whether no iterate of this step has been seen yet.
+    pub(crate) fn at_first_iteration(&self) -> bool {
+        self.last.is_none()
+    }
+
+    /// Adds the differences to the last iterate of this step and filters. `jr = J_prev r`, or empty.
+    pub(crate) fn observe(&mut self, x: &[f64], r: &[f64], jr: &[f64]) -> Vec<DroppedColumn> {
+        let mut x_tilde = x.to_vec();
+        add_scaled(1.0, r, &mut x_tilde);
+        let now = Iterate { x_tilde, r: r.to_vec(), jr: jr.to_vec() };
+        match self.last.replace(now) {
+            Some(before) => self.add(&before),
+            None if !self.factored => {
+                self.factored = true;
+                let dropped = self.filter.rebuild(&mut self.qr, &self.columns.all);
+                self.remove(&dropped)
+            }
+            None => Vec::new(),
+        }
+    }
+
+    fn add(&mut self, before: &Iterate) -> Vec<DroppedColumn> {
+        let now = self.last.as_ref().expect("the iterate was just stored");
+        let column = Column {
+            v: difference(&now.r, &before.r),
+            w: difference(&now.x_tilde, &before.x_tilde),
+            jv: difference(&now.jr, &before.jr),
+        };
+        if is_zero(&column.v) || is_zero(&column.w) {
+            return vec![DroppedColumn { steps_ago: 0, column: 0, reason: DropReason::NoChange }];
+        }
+        self.columns.push(column);
+        let dropped = self.filter.admit_newest(&mut self.qr, &self.columns.all);
+        self.remove(&dropped)
+    }
+
+    fn remove(&mut self, dropped: &[(usize, f64)]) -> Vec<DroppedColumn> {
+        let record = |&(index, independent): &(usize, f64)| {
+            let (steps_ago, column) = self.columns.place(index);
+            DroppedColumn { steps_ago, column, reason: DropReason::Dependent { independent } }
+        };
+        let records = dropped.iter().map(record).collect();
+        for &(index, _) in dropped.iter().rev() {
+            self.columns.remove(index);
+        }
+        records
+    }
+
+    /// The quasi-Newton update `x <- x_tilde - b + (W - J_prev V) c` with `c = argmin |V c + r|`;
+    /// `b = J_prev r`, or empty like the columns' `jv`.
+    pub(crate) fn update(&mut self, x: &mut [f64], r: &[f64], b: &[f64]) {
+        self.qr.solve(r, &mut self.solution);
+        add_scaled(1.0, r, x);
+        if !b.is_empty() {
+            add_scaled(-1.0, b, x);
+        }
+        for (c, column) in self.solution.iter().zip(&self.columns.all) {
+            add_scaled(-c, &column.w, x);
+            if !column.jv.is_empty() {
+                add_scaled(*c, &column.jv, x);
+            }
+        }
+    }
+}
+
+fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    let mut result = vec![0.0; a.len()];
+    subtract(a, b, &mut result);
+    result
+}
+
+fn is_zero(values: &[f64]) -> bool {
+    values.iter().all(|&value| value == 0.0)
+}

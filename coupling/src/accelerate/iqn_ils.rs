@@ -1,0 +1,71 @@
+//! Interface quasi-Newton with a least-squares model of the inverse Jacobian.
+
+use super::history::{Columns, Secants};
+use super::{Accelerator, AcceleratorState, Proposal, QuasiNewton, relax};
+use crate::error::SetupError;
+
+/// IQN-ILS (Degroote, Bathe, Vierendeels 2009): `c = argmin |V c + r|`, `x <- x_tilde + W c`.
+///
+/// `V` and `W` hold the columns of this step and of the last `history` steps, newest first.
+#[derive(Debug, Clone)]
+pub struct IqnIls {
+    settings: QuasiNewton,
+    size: usize,
+    /// Columns of accepted steps.
+    committed: Columns,
+    /// The same with those of this step, as the filter has left them.
+    secants: Secants,
+}
+
+impl IqnIls {
+    /// The method for `size` interface unknowns.
+    ///
+    /// # Errors
+    /// When a setting is out of its range.
+    pub fn new(settings: QuasiNewton, size: usize) -> Result<Self, SetupError> {
+        settings.validate()?;
+        let secants = Secants::new(settings.filter);
+        Ok(Self { settings, size, committed: Columns::new(), secants })
+    }
+}
+
+impl Accelerator for IqnIls {
+    fn propose(&mut self, x: &mut [f64], r: &[f64]) -> Proposal {
+        let first = self.secants.at_first_iteration();
+        let dropped = self.secants.observe(x, r, &[]);
+        if self.secants.len() == 0 || (first && self.settings.relax_first_iteration) {
+            return relax(self.settings.omega_0, x, r, dropped);
+        }
+        self.secants.update(x, r, &[]);
+        Proposal { omega: None, columns: self.secants.len(), dropped }
+    }
+
+    fn step_converged(&mut self, x: &[f64], r: &[f64]) {
+        if self.settings.keep_last_differences {
+            self.secants.observe(x, r, &[]);
+        }
+        self.committed.clone_from(self.secants.columns());
+        self.committed.end_step(self.settings.history);
+        self.secants.start_step(self.committed.clone());
+    }
+
+    fn step_failed(&mut self) {
+        self.secants.start_step(self.committed.clone());
+    }
+
+    fn state(&self) -> AcceleratorState {
+        AcceleratorState::IqnIls { columns: self.committed.clone() }
+    }
+
+    fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError> {
+        let AcceleratorState::IqnIls { columns } = state else {
+            return Err(SetupError::state("acceleration", "it is not that of IQN-ILS"));
+        };
+        if !columns.fit(self.size) {
+            return Err(SetupError::state("acceleration", format!("it is not for {} unknowns", self.size)));
+        }
+        self.committed.clone_from(columns);
+        self.secants.start_step(columns.clone());
+        Ok(())
+    }
+}

@@ -1,0 +1,143 @@
+//! Interface quasi-Newton with a dense multi-vector Jacobian: the reference for IQN-IMVLS.
+
+use std::collections::VecDeque;
+
+use super::history::{Columns, Secants};
+use super::{Accelerator, AcceleratorState, Proposal, QuasiNewton, relax};
+use crate::error::SetupError;
+use crate::vector::dot;
+
+/// IQN-MVJ (Lindner, Mehl, Scheufele, Uekermann 2015): `J = J_prev + (W - J_prev V) V^+`, `x <- x_tilde - J r`.
+///
+/// `J` maps residual differences to output differences. It is stored as a dense matrix of size² entries:
+/// for small interfaces, and for tests.
+#[derive(Debug, Clone)]
+pub struct IqnMvj {
+    settings: QuasiNewton,
+    size: usize,
+    /// `J_prev`, row by row; empty while no step is known.
+    jacobian: Vec<f64>,
+    /// The columns `J_prev` is made of, kept only where the history is limited.
+    past: VecDeque<Columns>,
+    secants: Secants,
+    /// `J_prev r`.
+    b: Vec<f64>,
+}
+
+impl IqnMvj {
+    /// The method for `size` interface unknowns.
+    ///
+    /// # Errors
+    /// When a setting is out of its range.
+    pub fn new(settings: QuasiNewton, size: usize) -> Result<Self, SetupError> {
+        settings.validate()?;
+        Ok(Self {
+            settings,
+            size,
+            jacobian: Vec::new(),
+            past: VecDeque::new(),
+            secants: Secants::new(settings.filter),
+            b: vec![0.0; size],
+        })
+    }
+
+    fn apply_previous_jacobian(&mut self, r: &[f64]) {
+        multiply(&self.jacobian, r, &mut self.b);
+    }
+
+    /// Takes the columns of the finished step into `J`.
+    fn learn(&mut self) {
+        match self.settings.history {
+            None => update(&mut self.jacobian, &self.secants, self.size),
+            Some(steps) => {
+                self.past.push_front(self.secants.columns().clone());
+                self.past.truncate(steps);
+                self.relearn();
+            }
+        }
+    }
+
+    /// `J` from the kept steps alone, oldest first.
+    fn relearn(&mut self) {
+        self.jacobian.clear();
+        for columns in self.past.iter().rev() {
+            let mut columns = columns.clone();
+            for column in &mut columns.all {
+                multiply(&self.jacobian, &column.v, &mut column.jv);
+            }
+            update(&mut self.jacobian, &Secants::from_columns(columns), self.size);
+        }
+    }
+}
+
+/// `result = J r`, zero while `J` is empty.
+fn multiply(jacobian: &[f64], r: &[f64], result: &mut [f64]) {
+    result.fill(0.0);
+    for (value, row) in result.iter_mut().zip(jacobian.chunks_exact(r.len())) {
+        *value = dot(row, r);
+    }
+}
+
+/// `J += (W - J V) R^{-1} Q^T`.
+fn update(jacobian: &mut Vec<f64>, secants: &Secants, size: usize) {
+    jacobian.resize(size * size, 0.0);
+    let mut unit = vec![0.0; size];
+    let mut inverse_column = Vec::new();
+    for column in 0..size {
+        unit[column] = 1.0;
+        secants.qr().solve(&unit, &mut inverse_column);
+        unit[column] = 0.0;
+        for (factor, difference) in inverse_column.iter().zip(&secants.columns().all) {
+            for row in 0..size {
+                jacobian[row * size + column] += factor * (difference.w[row] - difference.jv[row]);
+            }
+        }
+    }
+}
+
+impl Accelerator for IqnMvj {
+    fn propose(&mut self, x: &mut [f64], r: &[f64]) -> Proposal {
+        let first = self.secants.at_first_iteration();
+        self.apply_previous_jacobian(r);
+        let dropped = self.secants.observe(x, r, &self.b);
+        let nothing_known = self.jacobian.is_empty() && self.secants.len() == 0;
+        if nothing_known || (first && self.settings.relax_first_iteration) {
+            return relax(self.settings.omega_0, x, r, dropped);
+        }
+        self.secants.update(x, r, &self.b);
+        Proposal { omega: None, columns: self.secants.len(), dropped }
+    }
+
+    fn step_converged(&mut self, x: &[f64], r: &[f64]) {
+        if self.settings.keep_last_differences {
+            self.apply_previous_jacobian(r);
+            self.secants.observe(x, r, &self.b);
+        }
+        if self.secants.len() > 0 && self.settings.history != Some(0) {
+            self.learn();
+        }
+        self.secants.start_step(Columns::new());
+    }
+
+    fn step_failed(&mut self) {
+        self.secants.start_step(Columns::new());
+    }
+
+    fn state(&self) -> AcceleratorState {
+        AcceleratorState::IqnMvj { jacobian: self.jacobian.clone(), past: self.past.clone() }
+    }
+
+    fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError> {
+        let AcceleratorState::IqnMvj { jacobian, past } = state else {
+            return Err(SetupError::state("acceleration", "it is not that of IQN-MVJ"));
+        };
+        let square = jacobian.is_empty() || jacobian.len() == self.size * self.size;
+        if !square || !past.iter().all(|columns| columns.fit(self.size)) {
+            return Err(SetupError::state("acceleration", format!("it is not for {} unknowns", self.size)));
+        }
+        self.jacobian.clone_from(jacobian);
+        self.past.clone_from(past);
+        self.secants.start_step(Columns::new());
+        Ok(())
+    }
+}

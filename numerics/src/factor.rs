@@ -3,12 +3,14 @@
 mod cholesky;
 mod error;
 mod lu;
+mod trial;
 
 pub use error::FactorError;
 
 use cholesky::Cholesky;
 use lu::Lu;
 use serde::{Deserialize, Serialize};
+use trial::Trial;
 
 use crate::Pattern;
 
@@ -31,7 +33,8 @@ pub enum Method {
 /// equals a fresh factorization of the same values.
 ///
 /// Nothing allocates after [`Factor::new`], with one exception: the numeric phase of faer's supernodal LU
-/// allocates its fronts in every [`refactor`](Self::refactor). [`solve`](Self::solve) never allocates.
+/// allocates its fronts in every [`refactor`](Self::refactor). (The matrix kernels also keep one packing buffer
+/// a thread, from their first use on.)
 ///
 /// ```
 /// use partita_numerics::{Connectivity, DofMap, Factor, Method, Pattern};
@@ -47,14 +50,17 @@ pub enum Method {
 /// ```
 pub struct Factor {
     method: Method,
-    size: usize,
-    nonzeros: usize,
+    pattern: Pattern,
     /// Whether the last refactorization succeeded.
     is_ready: bool,
+    trial_error: f64,
+    trial: Trial,
     backend: Backend,
 }
 
 enum Backend {
+    /// No equations, nothing to do.
+    Empty,
     Lu(Box<Lu>),
     Cholesky(Box<Cholesky>),
 }
@@ -67,17 +73,25 @@ impl Factor {
     /// If memory does not suffice.
     pub fn new(method: Method, pattern: &Pattern) -> Result<Self, FactorError> {
         let backend = match method {
+            _ if pattern.size() == 0 => Backend::Empty,
             Method::Lu => Backend::Lu(Box::new(Lu::new(pattern)?)),
             Method::Llt => Backend::Cholesky(Box::new(Cholesky::new(cholesky::Kind::Llt, pattern)?)),
             Method::Ldlt => Backend::Cholesky(Box::new(Cholesky::new(cholesky::Kind::Ldlt, pattern)?)),
         };
-        Ok(Self { method, size: pattern.size(), nonzeros: pattern.nonzeros(), is_ready: false, backend })
+        Ok(Self {
+            method,
+            pattern: pattern.clone(),
+            is_ready: false,
+            trial_error: f64::NAN,
+            trial: Trial::new(pattern.size()),
+            backend,
+        })
     }
 
     /// The number of equations.
     #[must_use]
     pub fn size(&self) -> usize {
-        self.size
+        self.pattern.size()
     }
 
     /// The method it was built for.
@@ -88,6 +102,9 @@ impl Factor {
 
     /// Factors the matrix with these `values` over the full pattern.
     ///
+    /// Each factor proves itself on a system with a known solution before it is used: one product and one
+    /// solve, so that a singular matrix becomes an error and never a large wrong answer.
+    ///
     /// # Errors
     ///
     /// If a value is not finite, or the matrix is singular to working precision, or not positive definite
@@ -97,17 +114,22 @@ impl Factor {
     ///
     /// If `values` does not have one entry an entry of the pattern.
     pub fn refactor(&mut self, values: &[f64]) -> Result<(), FactorError> {
-        assert_eq!(values.len(), self.nonzeros, "values have the wrong length");
+        assert_eq!(values.len(), self.pattern.nonzeros(), "values have the wrong length");
         self.is_ready = false;
-        if let Some(slot) = values.iter().position(|value| !value.is_finite()) {
-            return Err(FactorError::NotFinite { slot });
-        }
-        match &mut self.backend {
-            Backend::Lu(lu) => lu.refactor(values)?,
-            Backend::Cholesky(cholesky) => cholesky.refactor(values)?,
-        }
+        self.trial.inspect(&self.pattern, values)?;
+        self.backend.refactor(values)?;
+        let backend = &mut self.backend;
+        self.trial_error = self.trial.error(&self.pattern, values, |rhs| backend.solve(rhs));
+        trial::judge(self.trial_error)?;
         self.is_ready = true;
         Ok(())
+    }
+
+    /// The largest error with which the last factor reproduced a known solution, relative to the scale of
+    /// each unknown's column: round-off times a condition number.
+    #[must_use]
+    pub fn trial_error(&self) -> f64 {
+        self.trial_error
     }
 
     /// Replaces `rhs` by the solution of A x = rhs with the matrix of the last refactorization.
@@ -116,11 +138,26 @@ impl Factor {
     ///
     /// If the last [`refactor`](Self::refactor) failed or there was none, or `rhs` has the wrong length.
     pub fn solve(&mut self, rhs: &mut [f64]) {
-        assert_eq!(rhs.len(), self.size, "right-hand side has the wrong length");
+        assert_eq!(rhs.len(), self.size(), "right-hand side has the wrong length");
         assert!(self.is_ready, "solve needs a successful refactor before it");
-        match &mut self.backend {
-            Backend::Lu(lu) => lu.solve(rhs),
-            Backend::Cholesky(cholesky) => cholesky.solve(rhs),
+        self.backend.solve(rhs);
+    }
+}
+
+impl Backend {
+    fn refactor(&mut self, values: &[f64]) -> Result<(), FactorError> {
+        match self {
+            Self::Empty => Ok(()),
+            Self::Lu(lu) => lu.refactor(values),
+            Self::Cholesky(cholesky) => cholesky.refactor(values),
+        }
+    }
+
+    fn solve(&mut self, rhs: &mut [f64]) {
+        match self {
+            Self::Empty => {}
+            Self::Lu(lu) => lu.solve(rhs),
+            Self::Cholesky(cholesky) => cholesky.solve(rhs),
         }
     }
 }
@@ -129,8 +166,8 @@ impl std::fmt::Debug for Factor {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Factor")
             .field("method", &self.method)
-            .field("size", &self.size)
-            .field("nonzeros", &self.nonzeros)
+            .field("size", &self.size())
+            .field("nonzeros", &self.pattern.nonzeros())
             .field("is_ready", &self.is_ready)
             .finish_non_exhaustive()
     }

@@ -4,9 +4,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
 use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
 use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::cholesky::supernodal::{
-    self, SupernodalLdltRef, SupernodalLltRef, SymbolicSupernodalCholesky,
-};
+use faer::sparse::linalg::cholesky::supernodal::{self, SymbolicSupernodalCholesky};
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
@@ -20,9 +18,6 @@ use crate::Pattern;
 /// Always supernodal. faer's `FORCE_SUPERNODAL` is zero and lets a diagonal matrix fall through to the
 /// simplicial path, because its elimination takes no operation.
 const ALWAYS_SUPERNODAL: SupernodalThreshold = SupernodalThreshold(-1.0);
-
-/// A pivot below this fraction of the diagonal entry it started from is nothing but round-off.
-const LOST_PIVOT: f64 = 1e-14;
 
 /// L L^T or L D L^T.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,10 +60,9 @@ impl Cholesky {
             *entry = values[slot];
         }
         match self.kind {
-            Kind::Llt => self.factor_llt()?,
-            Kind::Ldlt => self.factor_ldlt()?,
+            Kind::Llt => self.factor_llt(),
+            Kind::Ldlt => self.factor_ldlt(),
         }
-        self.find_lost_pivot()
     }
 
     fn factor_llt(&mut self) -> Result<(), FactorError> {
@@ -101,37 +95,6 @@ impl Cholesky {
         .map_err(|LdltError::ZeroPivot { index }| FactorError::Singular {
             equation: Some(self.equation(index)),
         })
-    }
-
-    /// Fails at the first pivot that elimination has reduced to round-off, or that is not a number.
-    ///
-    /// A body without supports leaves a last pivot of the size of round-off and often of the right sign, with
-    /// which a solve would return a huge rigid motion. A zero on the diagonal gives no measure of its pivot
-    /// and is not judged.
-    fn find_lost_pivot(&self) -> Result<(), FactorError> {
-        let supernodes = supernodes(&self.symbolic);
-        for s in 0..supernodes.n_supernodes() {
-            let (start, block) = match self.kind {
-                Kind::Llt => {
-                    let s = SupernodalLltRef::new(supernodes, &self.factor_values).supernode(s);
-                    (s.start(), s.val())
-                }
-                Kind::Ldlt => {
-                    let s = SupernodalLdltRef::new(supernodes, &self.factor_values).supernode(s);
-                    (s.start(), s.val())
-                }
-            };
-            for j in 0..block.ncols() {
-                let entry = block[(j, j)];
-                let pivot = if self.kind == Kind::Llt { entry * entry } else { entry.abs() };
-                // The diagonal comes first in its column of the lower triangle.
-                let diagonal = self.triangle_values[self.triangle.col_ptr()[start + j]].abs();
-                if pivot.is_nan() || pivot <= LOST_PIVOT * diagonal {
-                    return Err(FactorError::Singular { equation: Some(self.equation(start + j)) });
-                }
-            }
-        }
-        Ok(())
     }
 
     /// The equation behind a pivot of the permuted matrix.

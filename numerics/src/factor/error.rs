@@ -1,6 +1,6 @@
 //! How a factorization fails.
 
-/// A matrix that could not be factored.
+/// A matrix that could not be factored, or not well enough to solve with.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FactorError {
     /// The analysis or the fill-in does not fit into memory.
@@ -11,12 +11,14 @@ pub enum FactorError {
     },
     /// A value is infinite or not a number.
     #[error(
-        "matrix entry {slot} is not finite\n\
+        "matrix entry ({row}, {column}) is not finite\n\
          hint: the iterate or the material data it was assembled from is broken"
     )]
     NotFinite {
-        /// The position in the values.
-        slot: usize,
+        /// The equation of the row.
+        row: usize,
+        /// The equation of the column.
+        column: usize,
     },
     /// A pivot of L L^T is not positive.
     #[error(
@@ -27,18 +29,23 @@ pub enum FactorError {
         /// The equation of the pivot.
         equation: usize,
     },
-    /// The matrix is singular to working precision.
+    /// A column is empty or a pivot is zero.
     #[error(
-        "matrix is singular to working precision{}\n\
+        "matrix is singular{}\n\
          hint: a missing support, a pressure fixed nowhere, or a dof without an element",
-        at(*equation)
+        equation.map_or_else(String::new, |equation| format!(" at equation {equation}"))
     )]
     Singular {
-        /// The equation of the failed pivot, where the method shows it.
+        /// The equation of the column or pivot, where the method shows it.
         equation: Option<usize>,
     },
-}
-
-fn at(equation: Option<usize>) -> String {
-    equation.map_or_else(String::new, |equation| format!(" at equation {equation}"))
+    /// The factor does not reproduce a known solution.
+    #[error(
+        "matrix is singular to working precision: a known solution comes back with a relative error of {error:.1e}\n\
+         hint: a missing support, a pressure fixed nowhere, or an unsymmetric matrix given to a symmetric method"
+    )]
+    Inaccurate {
+        /// The largest error of an unknown, relative to the scale of its column.
+        error: f64,
+    },
 }

@@ -1,8 +1,8 @@
-//! Unsymmetric matrices: faer's supernodal LU with partial pivoting.
+//! Unsymmetric matrices: faer's supernodal LU with partial pivoting, columns ordered by COLAMD.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::lu::{self, LuRef, LuSymbolicParams, NumericLu, SymbolicLu};
+use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu};
+use faer::sparse::linalg::{LuError, SupernodalThreshold};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{ColMut, Conj, Par, Spec};
 
@@ -15,32 +15,25 @@ pub(super) struct Lu {
     symbolic: SymbolicLu<usize>,
     numeric: NumericLu<usize, f64>,
     scratch: MemBuffer,
-    /// The right-hand side of the trial solve and its solution.
-    trial: Vec<f64>,
 }
 
 impl Lu {
     pub(super) fn new(pattern: &Pattern) -> Result<Self, FactorError> {
         let n = pattern.size();
         let out_of_memory = FactorError::OutOfMemory { equations: n };
-        let columns = SymbolicSparseColMat::new_checked(
-            n,
-            n,
-            pattern.col_ptr().to_vec(),
-            None,
-            pattern.row_idx().to_vec(),
-        );
+        let (col_ptr, row_idx) = (pattern.col_ptr().to_vec(), pattern.row_idx().to_vec());
+        let pattern = SymbolicSparseColMat::new_checked(n, n, col_ptr, None, row_idx);
+        // Left to itself, faer takes the simplicial path for small systems, which is five times slower.
         let params = LuSymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..LuSymbolicParams::default()
         };
-        let symbolic =
-            lu::factorize_symbolic_lu(columns.as_ref(), params).map_err(|_| out_of_memory.clone())?;
+        let symbolic = factorize_symbolic_lu(pattern.as_ref(), params).map_err(|_| out_of_memory.clone())?;
         let needed = symbolic
             .factorize_numeric_lu_scratch::<f64>(Par::Seq, Spec::default())
             .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
         let scratch = MemBuffer::try_new(needed).map_err(|_| out_of_memory)?;
-        Ok(Self { pattern: columns, symbolic, numeric: NumericLu::new(), scratch, trial: vec![0.0; n] })
+        Ok(Self { pattern, symbolic, numeric: NumericLu::new(), scratch })
     }
 
     pub(super) fn refactor(&mut self, values: &[f64]) -> Result<(), FactorError> {
@@ -48,29 +41,19 @@ impl Lu {
         let stack = MemStack::new(&mut self.scratch);
         self.symbolic
             .factorize_numeric_lu(&mut self.numeric, matrix, Par::Seq, stack, Spec::default())
+            .map(|_| ())
             .map_err(|error| match error {
-                faer::sparse::linalg::LuError::SymbolicSingular { .. } => {
-                    FactorError::Singular { equation: None }
-                }
-                faer::sparse::linalg::LuError::Generic(_) => {
-                    FactorError::OutOfMemory { equations: self.trial.len() }
-                }
-            })?;
-        let mut trial = std::mem::take(&mut self.trial);
-        trial.fill(1.0);
-        self.solve(&mut trial);
-        let is_finite = trial.iter().all(|x| x.is_finite());
-        self.trial = trial;
-        if is_finite { Ok(()) } else { Err(FactorError::Singular { equation: None }) }
+                LuError::SymbolicSingular { .. } => FactorError::Singular { equation: None },
+                LuError::Generic(_) => FactorError::OutOfMemory { equations: self.symbolic.nrows() },
+            })
     }
 
     pub(super) fn solve(&mut self, rhs: &mut [f64]) {
-        let stack = MemStack::new(&mut self.scratch);
         LuRef::new_unchecked(&self.symbolic, &self.numeric).solve_in_place_with_conj(
             Conj::No,
             ColMut::from_slice_mut(rhs).as_mat_mut(),
             Par::Seq,
-            stack,
+            MemStack::new(&mut self.scratch),
         );
     }
 }

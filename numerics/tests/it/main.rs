@@ -1,0 +1,7 @@
+//! `partita-numerics` against dense algebra, and its promises about memory.
+
+mod allocation;
+mod assembly;
+mod factor;
+mod grid;
+mod random;

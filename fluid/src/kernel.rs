@@ -1,0 +1,54 @@
+//! The element kernel: residual and tangent of one simplex with N = D + 1 nodes.
+//!
+//! With c = u - w, L = grad u (`L_ij = du_i/dx_j`) and the residual of the strong form
+//!
+//! ```text
+//! r_M = rho (D_t u + L c - b) + grad p
+//! ```
+//!
+//! the rows of node a are
+//!
+//! ```text
+//! momentum    (N_a, rho (D_t u + L c - b)) + (mu (L + L^T) - p I) grad N_a
+//!             + tau_M (r_M (x) c) grad N_a + tau_C div u grad N_a
+//! continuity  (N_a, div u) + tau_M / rho  grad N_a . r_M
+//! ```
+//!
+//! integrated over the element. All fields are linear on it, so gradients are constants and what is left are
+//! integrals of products of two linear functions. They are integrated exactly, from nodal values alone:
+//!
+//! ```text
+//! (f, g) = V / (N (N + 1)) (sum_a f_a g_a + sum_a f_a sum_a g_a)
+//! ```
+//!
+//! (a one-point rule would make the mass matrix singular, and a Gauss rule has N points for the same result).
+//! tau is that of the centroid. The body force is interpolated at the nodes.
+
+mod element;
+pub mod facet;
+mod tangent;
+mod terms;
+
+pub use element::{Element, Fields, Flow, shape};
+pub use terms::{TERMS, Term, Terms};
+
+/// Residual of one element and, where wanted, its tangent (row-major, N (D + 1) square, overwritten).
+///
+/// Local dofs are numbered like the global ones: `node * (D + 1) + component`, pressure last.
+///
+/// # Panics
+///
+/// If `tangent` does not have (N (D + 1))^2 entries.
+#[inline]
+pub fn element<const D: usize, const N: usize>(
+    fields: &Fields<D, N>,
+    flow: &Flow,
+    tangent: Option<&mut [f64]>,
+) -> (Element<D, N>, Terms<D, N>) {
+    let element = Element::new(fields, flow);
+    if let Some(tangent) = tangent {
+        element.tangent(tangent);
+    }
+    let terms = element.residual();
+    (element, terms)
+}

@@ -1,0 +1,74 @@
+//! How the fluid is solved: everything that is neither physics nor mesh.
+
+use partita_mesh::motion::MotionSettings;
+use partita_numerics::newton;
+use partita_numerics::time::BdfOrder;
+use serde::{Deserialize, Serialize};
+
+use crate::stabilization::INVERSE_CONSTANT;
+
+/// Steady, or how time derivatives are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TimeScheme {
+    /// No time derivative and no 4/dt^2 in tau_M; the mesh velocity is zero.
+    Steady,
+    /// Backward differences of this order with steps of any size; the first step is of order one.
+    Bdf(BdfOrder),
+}
+
+/// Which derivative of the residual Newton's method uses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Tangent {
+    /// The derivative of the residual, d tau/du included: quadratic convergence.
+    #[default]
+    Full,
+    /// The derivative with tau_M and tau_C held: linear convergence, fast where tau changes little.
+    FrozenTau,
+    /// The derivative with the convective velocity u - w held, and with it tau: linear convergence from
+    /// far away.
+    Picard,
+}
+
+/// Fixes the constant that a fluid with prescribed velocity all round leaves free in its pressure.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PressurePin {
+    /// The node whose pressure is prescribed.
+    pub node: usize,
+    /// Its pressure [Pa].
+    pub pressure: f64,
+}
+
+/// Settings of a fluid solver; immutable once it is built.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FluidSettings {
+    /// Steady or unsteady.
+    pub time: TimeScheme,
+    /// The derivative Newton's method uses.
+    pub tangent: Tangent,
+    /// C_I of tau_M, see [`INVERSE_CONSTANT`].
+    pub inverse_constant: f64,
+    /// When Newton's method stops.
+    pub newton: newton::Settings,
+    /// How the mesh follows a moving boundary; unused where none moves.
+    pub motion: MotionSettings,
+    /// Boundary groups along which mesh nodes may slide; each is flat and normal to an axis.
+    pub mesh_slide: Vec<String>,
+    /// Needed exactly where velocity is prescribed all round and nothing moves.
+    pub pressure_pin: Option<PressurePin>,
+}
+
+impl Default for FluidSettings {
+    fn default() -> Self {
+        Self {
+            time: TimeScheme::Bdf(BdfOrder::One),
+            tangent: Tangent::Full,
+            inverse_constant: INVERSE_CONSTANT,
+            newton: newton::Settings::default(),
+            motion: MotionSettings::default(),
+            mesh_slide: Vec::new(),
+            pressure_pin: None,
+        }
+    }
+}

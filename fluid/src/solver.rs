@@ -1,0 +1,228 @@
+//! The fluid solver: what it is built from and what it shows.
+
+use partita_mesh::Mesh;
+use partita_mesh::motion::{MeshMotion, MotionQuality};
+use partita_numerics::phases::PhaseSeconds;
+use partita_numerics::{Factor, Method, Pattern, newton};
+
+use crate::assembly::Assembly;
+use crate::boundary::{self, Boundaries, Frames};
+use crate::error::FluidError;
+use crate::kernel::Flow;
+use crate::model::{BodyForce, FluidModel, InitialState};
+use crate::settings::FluidSettings;
+use crate::state::FluidState;
+use crate::trial::Trial;
+
+/// Incompressible Navier-Stokes on a moving mesh of triangles (`D = 2`) or tetrahedra (`D = 3`).
+///
+/// A step is `begin_step`, then any number of rounds of `impose` (new displacement of the interface) and Newton
+/// iterations ([`newton::solve`], or [`advance`](Self::advance)), then `commit` or `rewind`. A round continues
+/// from the iterate of the round before.
+///
+/// ```
+/// use std::sync::Arc;
+/// use partita_fluid::{BodyForce, BoundaryCondition, FluidModel, FluidSettings, FluidSolver, InitialState};
+/// use partita_mesh::generate::{Diagonal, RectangleMesh, rectangle};
+/// use partita_numerics::newton::Limit;
+///
+/// let mesh = rectangle(&RectangleMesh {
+///     origin: [0.0, 0.0],
+///     size: [1.0, 1.0],
+///     divisions: [8, 8],
+///     pattern: Diagonal::Crossed,
+/// })?;
+/// let model = FluidModel {
+///     density: 1000.0,
+///     viscosity: 1.0,
+///     body_force: BodyForce::Constant([0.0, -9.81]),
+///     boundary: vec![
+///         ("left".into(), BoundaryCondition::Slip),
+///         ("right".into(), BoundaryCondition::Slip),
+///         ("bottom".into(), BoundaryCondition::NoSlip),
+///         ("top".into(), BoundaryCondition::StressFree { backflow: false }),
+///     ],
+///     initial: InitialState::Rest,
+/// };
+/// let mut tank = FluidSolver::new(mesh, model, FluidSettings::default())?;
+/// tank.begin_step(0.01, 0.01)?;
+/// tank.advance(Limit::ToConvergence)?;
+/// tank.commit();
+/// let weight = tank.force_on("bottom").expect("a group")[1];
+/// assert!((weight + 9810.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct FluidSolver<const D: usize> {
+    pub(crate) mesh: Mesh<D>,
+    pub(crate) model: FluidModel<D>,
+    pub(crate) settings: FluidSettings,
+    pub(crate) boundaries: Boundaries<D>,
+    pub(crate) committed: FluidState,
+    pub(crate) trial: Trial<D>,
+    pub(crate) frames: Frames<D>,
+    pub(crate) motion: Option<MeshMotion<D>>,
+    pub(crate) assembly: Assembly,
+    pub(crate) factor: Factor,
+    /// The last Newton increment on all dofs.
+    pub(crate) increment: Vec<f64>,
+    pub(crate) phases: PhaseSeconds,
+    parts: Vec<Part>,
+}
+
+/// A part of the unknowns whose change is measured on its own.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// `velocity` or `pressure`.
+    pub name: &'static str,
+    /// Its free dofs in [`FluidSolver::values`]. Of a node on an inclined slip wall all velocities are listed.
+    pub dofs: Vec<usize>,
+}
+
+impl<const D: usize> FluidSolver<D> {
+    /// Checks the problem and prepares everything that does not change from step to step.
+    ///
+    /// # Errors
+    ///
+    /// [`FluidError`] for properties out of range, groups without condition or conditions without group, a
+    /// pressure without level, or settings of the mesh motion that do not work.
+    pub fn new(mesh: Mesh<D>, model: FluidModel<D>, settings: FluidSettings) -> Result<Self, FluidError> {
+        const { assert!(D == 2 || D == 3, "fluids have 2 or 3 dimensions") };
+        boundary::check(&mesh, &model, &settings)?;
+        let boundaries = Boundaries::new(&mesh, &model, &settings)?;
+        let assembly = Assembly::new(mesh.cells(), &boundaries.prescribed);
+        let factor = Factor::new(Method::Lu, &assembly.pattern)?;
+        let motion = match &boundaries.mesh_prescribed {
+            Some(prescribed) => Some(MeshMotion::new(&mesh, settings.motion, prescribed)?),
+            None => None,
+        };
+        let mut frames = Frames::new(&boundaries.slip, mesh.points().len());
+        frames.update(&boundaries.slip, mesh.points());
+        let committed = FluidState::start(initial_values(&mesh, &model)?, mesh.points().len() * D);
+        let mut trial = Trial::new(&mesh, initial_flow(&model, &settings), &committed);
+        if let BodyForce::Constant(b) = model.body_force {
+            trial.body_force.chunks_exact_mut(D).for_each(|nodal| nodal.copy_from_slice(&b));
+        }
+        Ok(Self {
+            parts: parts(&boundaries, &frames, &assembly),
+            increment: vec![0.0; boundaries.prescribed.len()],
+            phases: PhaseSeconds::default(),
+            mesh,
+            model,
+            settings,
+            boundaries,
+            committed,
+            trial,
+            frames,
+            motion,
+            assembly,
+            factor,
+        })
+    }
+
+    /// u [m/s] and p [Pa] of the latest iterate on all dofs, `node * (D + 1) + c`, pressure last.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.trial.values
+    }
+
+    /// Velocity and pressure and their free dofs.
+    #[must_use]
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The nodes whose displacement [`impose`](Self::impose) takes and whose forces
+    /// [`output`](Self::output) gives: those of all interface groups, sorted.
+    #[must_use]
+    pub fn interface_nodes(&self) -> &[usize] {
+        &self.boundaries.interface
+    }
+
+    /// The reference mesh.
+    #[must_use]
+    pub fn mesh(&self) -> &Mesh<D> {
+        &self.mesh
+    }
+
+    /// The nodes of the moved mesh [m].
+    #[must_use]
+    pub fn points(&self) -> &[[f64; D]] {
+        &self.trial.points
+    }
+
+    /// Displacement of the mesh from its reference [m], `node * D + c`.
+    #[must_use]
+    pub fn displacement(&self) -> &[f64] {
+        &self.trial.displacement
+    }
+
+    /// Velocity of the mesh in this step [m/s], `node * D + c`.
+    #[must_use]
+    pub fn mesh_velocity(&self) -> &[f64] {
+        &self.trial.mesh_velocity
+    }
+
+    /// Size and shape of the moved cells; nothing where no boundary moves.
+    #[must_use]
+    pub fn mesh_quality(&self) -> Option<MotionQuality> {
+        self.motion.as_ref()?.check(&self.trial.displacement).ok()
+    }
+
+    /// The settings it was built with.
+    #[must_use]
+    pub fn settings(&self) -> &FluidSettings {
+        &self.settings
+    }
+
+    /// When Newton's method stops.
+    #[must_use]
+    pub fn newton_settings(&self) -> &newton::Settings {
+        &self.settings.newton
+    }
+
+    /// Time spent since it was built.
+    #[must_use]
+    pub fn phases(&self) -> PhaseSeconds {
+        self.phases
+    }
+
+    /// The tangent of the last assembly over the free equations. Rows and columns of nodes on inclined slip
+    /// walls are in the frame of the wall.
+    #[must_use]
+    pub fn tangent(&self) -> (&Pattern, &[f64]) {
+        (&self.assembly.pattern, &self.assembly.tangent)
+    }
+}
+
+fn initial_flow<const D: usize>(model: &FluidModel<D>, settings: &FluidSettings) -> Flow {
+    Flow {
+        density: model.density,
+        viscosity: model.viscosity,
+        inverse_constant: settings.inverse_constant,
+        rate: 0.0,
+        four_over_dt_squared: 0.0,
+        tangent: settings.tangent,
+    }
+}
+
+fn initial_values<const D: usize>(mesh: &Mesh<D>, model: &FluidModel<D>) -> Result<Vec<f64>, FluidError> {
+    let mut values = vec![0.0; mesh.points().len() * (D + 1)];
+    if let InitialState::Velocity(field) = &model.initial {
+        for (node, point) in mesh.points().iter().enumerate() {
+            let velocity = boundary::evaluate(field, point, 0.0, "initial velocity", node)?;
+            values[node * (D + 1)..node * (D + 1) + D].copy_from_slice(&velocity);
+        }
+    }
+    Ok(values)
+}
+
+fn parts<const D: usize>(boundaries: &Boundaries<D>, frames: &Frames<D>, assembly: &Assembly) -> Vec<Part> {
+    let is_pressure = |dof: &usize| dof % (D + 1) == D;
+    let mut counts: Vec<bool> = boundaries.prescribed.iter().map(|prescribed| !prescribed).collect();
+    for node in frames.turned_nodes() {
+        counts[node * (D + 1)..node * (D + 1) + D].fill(true);
+    }
+    let velocity = (0..counts.len()).filter(|dof| counts[*dof] && !is_pressure(dof)).collect();
+    let pressure = assembly.dofs.free().iter().copied().filter(is_pressure).collect();
+    vec![Part { name: "velocity", dofs: velocity }, Part { name: "pressure", dofs: pressure }]
+}

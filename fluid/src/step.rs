@@ -1,0 +1,239 @@
+//! One time step: begin, impose, iterate, commit or rewind.
+
+use partita_numerics::newton::{self, Failure, Limit, Problem, Report, ResidualNorm, Verdict};
+use partita_numerics::phases::timed;
+use partita_numerics::time::Bdf;
+
+use crate::assembly::Iterate;
+use crate::boundary::{MovedMesh, evaluate};
+use crate::error::FluidError;
+use crate::model::{BodyForce, BoundaryCondition};
+use crate::settings::TimeScheme;
+use crate::solver::FluidSolver;
+use crate::state::FluidState;
+
+impl<const D: usize> FluidSolver<D> {
+    /// Starts the step of `dt` [s] that ends at `time` [s], from the committed state with the prescribed values
+    /// of `time`. Walls with a motion of their own have moved; the interface is where it was committed until
+    /// [`impose`](Self::impose) says otherwise. A steady flow takes `dt` for nothing.
+    ///
+    /// # Errors
+    ///
+    /// If `dt` is not positive, a prescribed value is not finite, prescribed velocities of a closed domain do
+    /// not balance, or the mesh cannot follow its walls.
+    pub fn begin_step(&mut self, time: f64, dt: f64) -> Result<(), FluidError> {
+        if !(time.is_finite() && dt > 0.0 && dt.is_finite()) {
+            return Err(FluidError::TimeStep { time, dt });
+        }
+        let bdf = match self.settings.time {
+            TimeScheme::Steady => None,
+            TimeScheme::Bdf(order) => Some(Bdf::of_order(order, dt, self.committed.last_dt)),
+        };
+        self.trial.begin(&self.mesh, &self.committed, (time, dt), bdf);
+        if let Some(motion) = &mut self.motion {
+            let begun = timed(&mut self.phases.motion, || motion.begin_step(&self.committed.displacement));
+            begun.map_err(|source| FluidError::Motion { time, source })?;
+        }
+        if !self.boundaries.wall_motion.is_empty() {
+            self.move_walls(time)?;
+            self.move_mesh(time)?;
+        }
+        self.follow_mesh(time)
+    }
+
+    /// Moves the interface: total displacement from the reference mesh [m] at the
+    /// [`interface_nodes`](Self::interface_nodes), `point * D + c`. The mesh follows, and with it mesh
+    /// velocity, prescribed values and loads.
+    ///
+    /// # Errors
+    ///
+    /// If a displacement is not finite or inverts a cell.
+    ///
+    /// # Panics
+    ///
+    /// If `displacement` does not have D entries an interface node, or outside a step.
+    pub fn impose(&mut self, displacement: &[f64]) -> Result<(), FluidError> {
+        let time = self.end_of_step();
+        let nodes = &self.boundaries.interface;
+        assert_eq!(displacement.len(), nodes.len() * D, "an interface displacement has {D} entries a node");
+        for (node, given) in nodes.iter().zip(displacement.chunks_exact(D)) {
+            self.trial.displacement[node * D..(node + 1) * D].copy_from_slice(given);
+        }
+        self.move_mesh(time)?;
+        self.follow_mesh(time)
+    }
+
+    /// Moves the whole mesh: total displacement [m] of all nodes, `node * D + c`. Nothing is solved for; walls
+    /// and interface go where it says.
+    ///
+    /// # Errors
+    ///
+    /// If a displacement is not finite or inverts a cell.
+    ///
+    /// # Panics
+    ///
+    /// If `displacement` does not have D entries a node, or outside a step.
+    pub fn impose_mesh(&mut self, displacement: &[f64]) -> Result<(), FluidError> {
+        let time = self.end_of_step();
+        assert_eq!(displacement.len(), self.trial.displacement.len(), "a displacement has {D} entries a node");
+        self.trial.displacement.copy_from_slice(displacement);
+        self.follow_mesh(time)
+    }
+
+    /// Replaces the iterate; prescribed entries of `values` are overruled.
+    ///
+    /// # Errors
+    ///
+    /// As [`begin_step`](Self::begin_step).
+    ///
+    /// # Panics
+    ///
+    /// If `values` does not have one entry a dof, or outside a step.
+    pub fn set_values(&mut self, values: &[f64]) -> Result<(), FluidError> {
+        let time = self.end_of_step();
+        assert_eq!(values.len(), self.trial.values.len(), "values have {} entries a node", D + 1);
+        self.trial.values.copy_from_slice(values);
+        self.prescribe(time)
+    }
+
+    /// Newton iterations from the latest iterate under the data imposed last.
+    ///
+    /// # Errors
+    ///
+    /// See [`newton::solve`].
+    pub fn advance(&mut self, limit: Limit) -> Result<Report, Failure<FluidError>> {
+        let settings = self.settings.newton;
+        newton::solve(self, &settings, limit, |_, _| Verdict::Continue)
+    }
+
+    /// Accepts the step.
+    ///
+    /// # Panics
+    ///
+    /// Outside a step.
+    pub fn commit(&mut self) {
+        let (time, dt) = self.trial.step.take().expect("commit ends a step that begin_step started");
+        self.committed.advance(time, dt, &self.trial.values, &self.trial.displacement);
+    }
+
+    /// Gives the step up: back to the committed state.
+    pub fn rewind(&mut self) {
+        self.trial.reset(&self.mesh, &self.committed);
+    }
+
+    /// The committed state.
+    #[must_use]
+    pub fn state(&self) -> FluidState {
+        self.committed.clone()
+    }
+
+    /// Continues from a state, bit for bit.
+    ///
+    /// # Errors
+    ///
+    /// If the state belongs to another mesh.
+    pub fn restore(&mut self, state: FluidState) -> Result<(), FluidError> {
+        self.committed.check_fits(&state)?;
+        self.committed = state;
+        self.rewind();
+        Ok(())
+    }
+
+    /// t_{n+1}.
+    fn end_of_step(&self) -> f64 {
+        self.trial.step.expect("begin_step comes first").0
+    }
+
+    /// Displacements of the walls with a motion of their own.
+    fn move_walls(&mut self, time: f64) -> Result<(), FluidError> {
+        for &(node, condition) in &self.boundaries.wall_motion {
+            let BoundaryCondition::WallMotion(field) = &self.model.boundary[condition].1 else {
+                unreachable!("a moving wall comes from a wall motion")
+            };
+            let point = &self.mesh.points()[node];
+            let displacement = evaluate(field, point, time, "wall displacement", node)?;
+            self.trial.displacement[node * D..(node + 1) * D].copy_from_slice(&displacement);
+        }
+        Ok(())
+    }
+
+    /// The mesh follows its boundary.
+    fn move_mesh(&mut self, time: f64) -> Result<(), FluidError> {
+        let Some(motion) = &mut self.motion else { return Ok(()) };
+        let (committed, displacement) = (&self.committed.displacement, &mut self.trial.displacement);
+        timed(&mut self.phases.motion, || motion.displace(committed, displacement))
+            .map_err(|source| FluidError::Motion { time, source })
+    }
+
+    /// All that depends on where the mesh is.
+    fn follow_mesh(&mut self, time: f64) -> Result<(), FluidError> {
+        self.trial.follow(&self.mesh, &self.committed).map_err(|source| FluidError::Motion { time, source })?;
+        self.frames.update(&self.boundaries.slip, &self.trial.points);
+        let mesh = MovedMesh { time, points: &self.trial.points, velocity: &self.trial.mesh_velocity };
+        if let BodyForce::Field(field) = &self.model.body_force {
+            for (node, nodal) in self.trial.body_force.chunks_exact_mut(D).enumerate() {
+                nodal.copy_from_slice(&mesh.evaluate(field, node, "body force")?);
+            }
+        }
+        for facet in &mut self.boundaries.natural {
+            facet.update(&self.model, &mesh)?;
+        }
+        self.prescribe(time)
+    }
+
+    /// Prescribed values of the iterate.
+    fn prescribe(&mut self, time: f64) -> Result<(), FluidError> {
+        let mesh = MovedMesh { time, points: &self.trial.points, velocity: &self.trial.mesh_velocity };
+        self.boundaries.impose(&self.model, &mesh, &self.frames, &mut self.trial.values)?;
+        if let Some(pin) = self.settings.pressure_pin {
+            self.trial.values[pin.node * (D + 1) + D] = pin.pressure;
+        }
+        if self.boundaries.is_closed { self.check_net_flux(time) } else { Ok(()) }
+    }
+}
+
+impl<const D: usize> Problem for FluidSolver<D> {
+    type Error = FluidError;
+
+    /// # Panics
+    ///
+    /// Outside a step.
+    fn assemble(&mut self, with_tangent: bool) -> Result<ResidualNorm, FluidError> {
+        assert!(self.trial.step.is_some(), "begin_step comes before assemble");
+        let iterate = Iterate {
+            flow: &self.trial.flow,
+            cells: self.mesh.cells(),
+            points: &self.trial.points,
+            values: &self.trial.values,
+            mesh_velocity: &self.trial.mesh_velocity,
+            history: &self.trial.history,
+            body_force: &self.trial.body_force,
+            natural: &self.boundaries.natural,
+            frames: &self.frames,
+        };
+        let assembly = &mut self.assembly;
+        Ok(timed(&mut self.phases.assembly, || assembly.assemble(&iterate, with_tangent)))
+    }
+
+    fn solve_and_update(&mut self) -> Result<(), FluidError> {
+        let time = self.end_of_step();
+        let Self { factor, assembly, phases, increment, frames, trial, .. } = self;
+        timed(&mut phases.factorization, || factor.refactor(&assembly.tangent))
+            .map_err(|source| FluidError::Factorization { time, source })?;
+        timed(&mut phases.solve, || factor.solve(&mut assembly.right_hand_side));
+        increment.fill(0.0);
+        assembly.dofs.add_scaled(1.0, &assembly.right_hand_side, increment);
+        for &node in frames.turned_nodes() {
+            let frame = frames.at(node).expect("a turned node has a frame");
+            let nodal = &mut increment[node * (D + 1)..node * (D + 1) + D];
+            let turned: [f64; D] = std::array::from_fn(|i| nodal[i]);
+            for i in 0..D {
+                nodal[i] = (0..D).map(|j| frame[j][i] * turned[j]).sum();
+            }
+        }
+        for (value, increment) in trial.values.iter_mut().zip(increment.iter()) {
+            *value += increment;
+        }
+        Ok(())
+    }
+}

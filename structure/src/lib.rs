@@ -1,1 +1,46 @@
-//! Placeholder.
+//! Nonlinear elastodynamics: Total Lagrangian solids on one NURBS patch, generalized-alpha in time.
+//!
+//! ```text
+//! rho d_tt = Div P + b,   P = F S,   S = S(E),   E = (F^T F - I)/2
+//! ```
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`material`] | stress and tangent from the displacement gradient |
+//! | [`kernel`] | the element: internal force, tangent, mass, energies |
+//! | [`space`], [`elements`] | geometry and displacement space; shape functions tabulated once |
+//! | `assembly`, `factor` | global forces and tangent; its symmetric factor |
+//! | [`load`] | body force, interface forces |
+//! | [`step`], [`state`] | time integration; what goes from step to step |
+//! | [`model`] | properties, supports, settings |
+//! | [`solver`], `newton`, `probe` | [`StructureSolver`]: the steps, the nonlinear system, what to read off |
+//!
+//! Fields over control points are flat, `control_point * D + c`; those over the interface `point * D + c`, in the
+//! order of [`StructureSolver::interface_points`]. Units are SI; in the plane, forces and energies are per metre
+//! of depth.
+
+pub mod elements;
+pub mod error;
+pub mod kernel;
+pub mod load;
+pub mod material;
+pub mod model;
+pub mod solver;
+pub mod space;
+pub mod state;
+pub mod step;
+
+mod assembly;
+mod factor;
+mod newton;
+mod probe;
+mod tensor;
+
+pub use error::StructureError;
+pub use load::BodyForce;
+pub use material::{Law, Material, MaterialError, Plane, Response};
+pub use model::{LineSearch, Part, Rayleigh, StructureModel, StructureSettings};
+pub use solver::StructureSolver;
+pub use space::Space;
+pub use state::StructureState;
+pub use step::TimeScheme;

@@ -1,0 +1,296 @@
+//! From elements to global forces and the tangent.
+
+use partita_numerics::scatter::add_vector;
+use partita_numerics::{Connectivity, DofMap, Pattern, Scatter};
+
+use crate::elements::Elements;
+use crate::kernel::{self, Scratch};
+use crate::material::Material;
+use crate::model::Rayleigh;
+use crate::step::TangentWeights;
+
+/// The motion at which forces are evaluated: each vector at its own level between `t_n` and `t_{n+1}`.
+#[derive(Debug, Clone)]
+pub(crate) struct Motion {
+    pub(crate) displacement: Vec<f64>,
+    pub(crate) velocity: Vec<f64>,
+    pub(crate) acceleration: Vec<f64>,
+}
+
+/// The forces that resist a motion, on all dofs: prescribed rows hold their share of the reactions.
+#[derive(Debug, Clone)]
+pub(crate) struct Forces {
+    /// `f_int(d)`
+    pub(crate) internal: Vec<f64>,
+    /// C v
+    pub(crate) damping: Vec<f64>,
+    /// M a
+    pub(crate) inertia: Vec<f64>,
+}
+
+/// Where a tangent goes: factors of M, C and K, and the values on the pattern.
+pub(crate) struct Tangent<'a> {
+    pub(crate) weights: TangentWeights,
+    pub(crate) values: &'a mut [f64],
+}
+
+/// Buffers of one element; they live as long as the solver.
+#[derive(Debug, Clone)]
+pub(crate) struct Local<const D: usize> {
+    field: Vec<[f64; D]>,
+    force: Vec<[f64; D]>,
+    matrix: Vec<f64>,
+    scratch: Scratch<D>,
+}
+
+/// Everything about assembly that does not change during a run.
+pub(crate) struct Assembly<const D: usize> {
+    elements: Elements<D>,
+    connectivity: Connectivity,
+    dofs: DofMap,
+    pattern: Pattern,
+    scatter: Scatter,
+    density: f64,
+    material: Material,
+    has_inertia: bool,
+    damping: Option<Damping>,
+    /// M on the pattern.
+    mass: Vec<f64>,
+}
+
+/// Rayleigh damping, C = mass M + stiffness `K_0`.
+struct Damping {
+    rayleigh: Rayleigh,
+    /// The material of `K_0`.
+    linearized: Material,
+    /// C on the pattern.
+    matrix: Vec<f64>,
+}
+
+impl<const D: usize> Assembly<D> {
+    pub(crate) fn new(elements: Elements<D>, dofs: DofMap, density: f64, material: Material) -> Self {
+        let connectivity = elements.connectivity();
+        let pattern = Pattern::new(&dofs, &[&connectivity]);
+        let scatter = Scatter::new(&pattern, &dofs, &connectivity);
+        let mut assembly = Self {
+            elements,
+            connectivity,
+            dofs,
+            pattern,
+            scatter,
+            density,
+            material,
+            has_inertia: true,
+            damping: None,
+            mass: Vec::new(),
+        };
+        assembly.mass = assembly
+            .matrix(|e, local| kernel::add_mass(assembly.elements.element(e), density, &mut local.matrix));
+        assembly
+    }
+
+    /// The same without inertia in its forces.
+    pub(crate) fn without_inertia(mut self) -> Self {
+        self.has_inertia = false;
+        self
+    }
+
+    /// The same with damping.
+    pub(crate) fn with_damping(mut self, rayleigh: Rayleigh) -> Self {
+        let linearized = self.material.linearized();
+        let mut matrix = self.matrix(|e, Local { field, force, matrix, scratch }| {
+            let element = self.elements.element(e);
+            field.fill([0.0; D]);
+            let factor = rayleigh.stiffness;
+            kernel::add_internal_force_and_tangent(
+                element,
+                &linearized,
+                field,
+                factor,
+                force,
+                matrix,
+                scratch,
+            );
+        });
+        for (c, m) in matrix.iter_mut().zip(&self.mass) {
+            *c += rayleigh.mass * m;
+        }
+        self.damping = Some(Damping { rayleigh, linearized, matrix });
+        self
+    }
+
+    pub(crate) fn dofs(&self) -> &DofMap {
+        &self.dofs
+    }
+
+    pub(crate) fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    /// M on the pattern.
+    pub(crate) fn mass(&self) -> &[f64] {
+        &self.mass
+    }
+
+    pub(crate) fn local(&self) -> Local<D> {
+        let nodes = self.elements.nodes_per_element();
+        Local {
+            field: vec![[0.0; D]; nodes],
+            force: vec![[0.0; D]; nodes],
+            matrix: vec![0.0; (nodes * D).pow(2)],
+            scratch: Scratch::new(nodes),
+        }
+    }
+
+    /// Forces of `motion` on all dofs and, where asked for, the tangent mass M + damping C + stiffness K(d).
+    pub(crate) fn evaluate(
+        &self,
+        motion: &Motion,
+        mut tangent: Option<Tangent>,
+        local: &mut Local<D>,
+        forces: &mut Forces,
+    ) {
+        forces.clear();
+        if let Some(tangent) = &mut tangent {
+            self.start_tangent(tangent);
+        }
+        for e in 0..self.elements.len() {
+            local.gather(self.elements.nodes(e), &motion.displacement);
+            match &mut tangent {
+                None => self.internal_force(e, local),
+                Some(Tangent { weights, values }) => {
+                    self.internal_force_and_tangent(e, weights.stiffness, local);
+                    self.scatter.add_matrix(e, &local.matrix, values);
+                }
+            }
+            add_vector(&self.connectivity, e, local.force.as_flattened(), &mut forces.internal);
+            self.add_inertia(e, motion, local, forces);
+            self.add_damping(e, motion, local, forces);
+        }
+    }
+
+    /// `(N_a, 1)` of every node `[m^D]`.
+    pub(crate) fn volumes(&self) -> Vec<f64> {
+        let mut volumes = vec![0.0; self.dofs.total() / D];
+        let mut shares = vec![0.0; self.elements.nodes_per_element()];
+        for e in 0..self.elements.len() {
+            shares.fill(0.0);
+            kernel::add_volume(self.elements.element(e), &mut shares);
+            for (&node, share) in self.elements.nodes(e).iter().zip(&shares) {
+                volumes[node] += share;
+            }
+        }
+        volumes
+    }
+
+    /// Strain energy of a displacement `[J, in 2D J/m]`.
+    pub(crate) fn strain_energy(&self, displacement: &[f64]) -> f64 {
+        self.sum(displacement, |e, d| kernel::strain_energy(self.elements.element(e), &self.material, d))
+    }
+
+    /// Kinetic energy of a velocity `[J, in 2D J/m]`.
+    pub(crate) fn kinetic_energy(&self, velocity: &[f64]) -> f64 {
+        self.sum(velocity, |e, v| kernel::kinetic_energy(self.elements.element(e), self.density, v))
+    }
+
+    /// The part of the tangent that does not depend on the displacement.
+    fn start_tangent(&self, tangent: &mut Tangent) {
+        for (entry, m) in tangent.values.iter_mut().zip(&self.mass) {
+            *entry = tangent.weights.mass * m;
+        }
+        if let Some(damping) = &self.damping {
+            for (entry, c) in tangent.values.iter_mut().zip(&damping.matrix) {
+                *entry += tangent.weights.damping * c;
+            }
+        }
+    }
+
+    fn internal_force(&self, e: usize, local: &mut Local<D>) {
+        kernel::add_internal_force(self.elements.element(e), &self.material, &local.field, &mut local.force);
+    }
+
+    fn internal_force_and_tangent(&self, e: usize, scale: f64, local: &mut Local<D>) {
+        let Local { field, force, matrix, scratch } = local;
+        matrix.fill(0.0);
+        kernel::add_internal_force_and_tangent(
+            self.elements.element(e),
+            &self.material,
+            field,
+            scale,
+            force,
+            matrix,
+            scratch,
+        );
+    }
+
+    fn add_inertia(&self, e: usize, motion: &Motion, local: &mut Local<D>, forces: &mut Forces) {
+        if self.has_inertia {
+            local.gather(self.elements.nodes(e), &motion.acceleration);
+            kernel::add_inertia(self.elements.element(e), self.density, &local.field, &mut local.force);
+            add_vector(&self.connectivity, e, local.force.as_flattened(), &mut forces.inertia);
+        }
+    }
+
+    fn add_damping(&self, e: usize, motion: &Motion, local: &mut Local<D>, forces: &mut Forces) {
+        if let Some(Damping { rayleigh: Rayleigh { mass, stiffness }, linearized, .. }) = &self.damping {
+            let element = self.elements.element(e);
+            local.gather(self.elements.nodes(e), &motion.velocity);
+            kernel::add_inertia(element, mass * self.density, &local.field, &mut local.force);
+            // K_0 v is the internal force of the linear material at the displacement v.
+            local.field.as_flattened_mut().iter_mut().for_each(|v| *v *= stiffness);
+            kernel::add_internal_force(element, linearized, &local.field, &mut local.force);
+            add_vector(&self.connectivity, e, local.force.as_flattened(), &mut forces.damping);
+        }
+    }
+
+    /// A constant matrix on the pattern from its element matrices.
+    fn matrix(&self, fill: impl Fn(usize, &mut Local<D>)) -> Vec<f64> {
+        let mut values = vec![0.0; self.pattern.nonzeros()];
+        let mut local = self.local();
+        for e in 0..self.elements.len() {
+            local.matrix.fill(0.0);
+            fill(e, &mut local);
+            self.scatter.add_matrix(e, &local.matrix, &mut values);
+        }
+        values
+    }
+
+    /// A quantity of a nodal field, summed over the elements.
+    fn sum(&self, field: &[f64], quantity: impl Fn(usize, &[[f64; D]]) -> f64) -> f64 {
+        let mut local = self.local();
+        let of_element = |e| {
+            local.gather(self.elements.nodes(e), field);
+            quantity(e, &local.field)
+        };
+        (0..self.elements.len()).map(of_element).sum()
+    }
+}
+
+impl<const D: usize> Local<D> {
+    /// Takes a field at the nodes of an element and clears its force.
+    fn gather(&mut self, nodes: &[usize], field: &[f64]) {
+        let field = field.as_chunks::<D>().0;
+        for (local, &node) in self.field.iter_mut().zip(nodes) {
+            *local = field[node];
+        }
+        self.force.fill([0.0; D]);
+    }
+}
+
+impl Motion {
+    pub(crate) fn new(dofs: usize) -> Self {
+        Self { displacement: vec![0.0; dofs], velocity: vec![0.0; dofs], acceleration: vec![0.0; dofs] }
+    }
+}
+
+impl Forces {
+    pub(crate) fn new(dofs: usize) -> Self {
+        Self { internal: vec![0.0; dofs], damping: vec![0.0; dofs], inertia: vec![0.0; dofs] }
+    }
+
+    fn clear(&mut self) {
+        self.internal.fill(0.0);
+        self.damping.fill(0.0);
+        self.inertia.fill(0.0);
+    }
+}

@@ -1,0 +1,92 @@
+//! How a structure fails.
+
+use partita_iga::Side;
+use partita_numerics::FactorError;
+use partita_numerics::time::SpectralRadiusError;
+
+/// A structure that cannot be built, solved or restored.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StructureError {
+    /// The density is not a positive number.
+    #[error("the density is {value} kg/m^3\nhint: it must be positive and finite")]
+    Density {
+        /// The value given.
+        value: f64,
+    },
+    /// A damping factor is negative or not finite.
+    #[error(
+        "the Rayleigh factors are {mass} 1/s and {stiffness} s\nhint: both must be finite and not negative"
+    )]
+    Damping {
+        /// Factor of the mass `[1/s]`.
+        mass: f64,
+        /// Factor of the stiffness `[s]`.
+        stiffness: f64,
+    },
+    /// The settings of the line search make no search.
+    #[error(
+        "a line search with tolerance {tolerance} and at most {max_evaluations} evaluations cannot work\n\
+         hint: the tolerance lies between 0 and 1 (0.8 is common), and one evaluation is the least"
+    )]
+    LineSearch {
+        /// The tolerance given.
+        tolerance: f64,
+        /// The number of evaluations given.
+        max_evaluations: usize,
+    },
+    /// The spectral radius of generalized-alpha is out of range.
+    #[error(transparent)]
+    SpectralRadius(#[from] SpectralRadiusError),
+    /// Plane stress was asked for in three dimensions.
+    #[error("plane stress has no meaning in three dimensions\nhint: leave the plane assumption at `strain`")]
+    PlaneStressInSpace,
+    /// The patch does not fill the space it lies in.
+    #[error(
+        "a patch of {parameters} parameters is no solid in {dimensions} dimensions\n\
+         hint: a plane solid is a surface, a solid in space a volume"
+    )]
+    NotASolid {
+        /// Parameters of the patch.
+        parameters: usize,
+        /// Dimensions of the space.
+        dimensions: usize,
+    },
+    /// A side was named that the patch does not have.
+    #[error("the patch has no side `{side}`\nhint: a plane patch has left, right, bottom and top")]
+    NoSuchSide {
+        /// The side asked for.
+        side: Side,
+    },
+    /// The reference configuration is folded or degenerate at a quadrature point.
+    #[error(
+        "element {element} is inverted near {place:?} m: the determinant of its map is {determinant:e}\n\
+         hint: the parameters of a patch are right-handed and its control points do not cross over"
+    )]
+    Inverted {
+        /// The element, the first parameter runs fastest.
+        element: usize,
+        /// The quadrature point `[m]`.
+        place: Vec<f64>,
+        /// Determinant of dx/dxi there.
+        determinant: f64,
+    },
+    /// Nothing is left to move.
+    #[error("every control point is clamped\nhint: leave at least one side free, or refine the patch")]
+    NothingFree,
+    /// The tangent could not be factored.
+    #[error(transparent)]
+    Factor(#[from] FactorError),
+    /// A saved state belongs to another structure.
+    #[error(
+        "the saved state has {found} values of {quantity}, the structure has {expected}\n\
+         hint: continue a run with the patch and the sides it was started with"
+    )]
+    StateOfAnotherStructure {
+        /// The field of the state.
+        quantity: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that fits.
+        expected: usize,
+    },
+}

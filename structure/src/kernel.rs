@@ -1,0 +1,371 @@
+//! The element: sums over quadrature points of the reference configuration, in the words of the weak form
+//!
+//! ```text
+//! (q, rho a) + (grad q, P(grad d)) = (q, b)        for every test function q
+//! ```
+//!
+//! with the first Piola-Kirchhoff stress P = F S (Total Lagrangian). The functions know neither the mesh nor the
+//! time integration; nodal fields are slices with one `[f64; D]` a node, results are *added* to the slices given.
+
+use crate::material::Material;
+use crate::tensor::{self, Tensor};
+
+/// One element as quadrature sees it; it lives in the reference configuration and never changes.
+#[derive(Debug, Clone, Copy)]
+pub struct Element<'a, const D: usize> {
+    /// Quadrature weight times volume of each point `[m^D]`.
+    pub weights: &'a [f64],
+    /// `N_a` at each point; nodes run fastest.
+    pub values: &'a [f64],
+    /// `grad N_a` at each point `[1/m]`; nodes run fastest.
+    pub gradients: &'a [[f64; D]],
+}
+
+/// One quadrature point.
+#[derive(Debug, Clone, Copy)]
+struct Point<'a, const D: usize> {
+    weight: f64,
+    values: &'a [f64],
+    gradients: &'a [[f64; D]],
+}
+
+/// Room for the products of gradients at one quadrature point; belongs to the caller, so the kernel allocates nothing.
+#[derive(Debug, Clone, Default)]
+pub struct Scratch<const D: usize> {
+    pushed: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Scratch<D> {
+    /// Room for elements of up to `nodes` nodes.
+    #[must_use]
+    pub fn new(nodes: usize) -> Self {
+        Self { pushed: vec![[0.0; D]; nodes] }
+    }
+}
+
+impl<'a, const D: usize> Element<'a, D> {
+    /// Number of nodes.
+    #[must_use]
+    pub fn nodes(&self) -> usize {
+        self.values.len() / self.weights.len()
+    }
+
+    fn points(self) -> impl Iterator<Item = Point<'a, D>> {
+        let nodes = self.nodes();
+        let shapes = self.values.chunks_exact(nodes).zip(self.gradients.chunks_exact(nodes));
+        self.weights.iter().zip(shapes).map(|(&weight, (values, gradients))| Point {
+            weight,
+            values,
+            gradients,
+        })
+    }
+}
+
+impl<const D: usize> Point<'_, D> {
+    /// `sum_a N_a q_a`
+    #[inline]
+    fn value(&self, field: &[[f64; D]]) -> [f64; D] {
+        let mut value = [0.0; D];
+        for (q, n) in field.iter().zip(self.values) {
+            for i in 0..D {
+                value[i] += n * q[i];
+            }
+        }
+        value
+    }
+
+    /// `sum_a q_a (x) grad N_a`
+    #[inline]
+    fn gradient(&self, field: &[[f64; D]]) -> Tensor<D> {
+        let mut gradient = [[0.0; D]; D];
+        for (q, g) in field.iter().zip(self.gradients) {
+            for i in 0..D {
+                for j in 0..D {
+                    gradient[i][j] += q[i] * g[j];
+                }
+            }
+        }
+        gradient
+    }
+
+    /// `force_a += w P grad N_a`
+    #[inline]
+    fn add_stress(&self, stress: &Tensor<D>, force: &mut [[f64; D]]) {
+        let weighted = tensor::build(|i, j| self.weight * stress[i][j]);
+        for (f, g) in force.iter_mut().zip(self.gradients) {
+            let pull = tensor::apply(&weighted, g);
+            for i in 0..D {
+                f[i] += pull[i];
+            }
+        }
+    }
+}
+
+/// Internal forces: `force_a += (grad N_a, P(grad d))`.
+///
+/// `displacement` `[m]` and `force` `[N, in 2D N/m]` hold one entry a node.
+pub fn add_internal_force<const D: usize>(
+    element: Element<D>,
+    material: &Material,
+    displacement: &[[f64; D]],
+    force: &mut [[f64; D]],
+) {
+    for point in element.points() {
+        let stress = material.stress(&point.gradient(displacement));
+        point.add_stress(&stress, force);
+    }
+}
+
+/// Internal forces, and their derivative by the displacement: with dP/d(grad d) as in [`crate::Response`],
+///
+/// ```text
+/// force_a       += (grad N_a, P)
+/// tangent_ai,bk += scale (grad N_a . G grad N_b) delta_ik + scale lambda p_ai p_bk
+///                + scale mu (p_bi p_ak + (grad N_a . grad N_b) B_ik),        p_a = A grad N_a
+/// ```
+///
+/// `tangent` is row-major over the local dofs `a * D + i`, exactly symmetric if it was before; `scale` is the share
+/// of the unknown in the displacement given (1 - `alpha_f` in generalized-alpha).
+pub fn add_internal_force_and_tangent<const D: usize>(
+    element: Element<D>,
+    material: &Material,
+    displacement: &[[f64; D]],
+    scale: f64,
+    force: &mut [[f64; D]],
+    tangent: &mut [f64],
+    scratch: &mut Scratch<D>,
+) {
+    let nodes = element.nodes();
+    let row = nodes * D;
+    let pushed = &mut scratch.pushed[..nodes];
+    for point in element.points() {
+        let at = material.response(&point.gradient(displacement));
+        point.add_stress(&at.stress, force);
+
+        let weight = scale * point.weight;
+        let (lambda, mu) = (weight * at.lambda, weight * at.mu);
+        let geometric: Tensor<D> = tensor::build(|i, j| weight * at.geometric[i][j]);
+        let left: Tensor<D> = tensor::build(|i, j| mu * at.left[i][j]);
+        for (p, g) in pushed.iter_mut().zip(point.gradients) {
+            *p = tensor::apply(&at.push, g);
+        }
+        // Blocks on and above the diagonal; the others follow by symmetry.
+        for a in 0..nodes {
+            let (gradient_a, p_a) = (point.gradients[a], pushed[a]);
+            let geometric_a = tensor::apply(&geometric, &gradient_a);
+            for b in a..nodes {
+                let (gradient_b, p_b) = (point.gradients[b], pushed[b]);
+                let diagonal = tensor::dot(&geometric_a, &gradient_b);
+                let metric = tensor::dot(&gradient_a, &gradient_b);
+                for i in 0..D {
+                    let block = &mut tangent[(a * D + i) * row + b * D..][..D];
+                    for k in 0..D {
+                        block[k] += lambda * p_a[i] * p_b[k] + mu * p_b[i] * p_a[k] + metric * left[i][k];
+                    }
+                    block[i] += diagonal;
+                }
+            }
+        }
+    }
+    mirror(tangent, row);
+}
+
+/// Inertia: `force_a += (N_a, rho a)`.
+pub fn add_inertia<const D: usize>(
+    element: Element<D>,
+    density: f64,
+    acceleration: &[[f64; D]],
+    force: &mut [[f64; D]],
+) {
+    for point in element.points() {
+        let momentum = point.value(acceleration).map(|a| point.weight * density * a);
+        for (f, n) in force.iter_mut().zip(point.values) {
+            for i in 0..D {
+                f[i] += n * momentum[i];
+            }
+        }
+    }
+}
+
+/// Consistent mass: `mass_ai,bk += (N_a, rho N_b) delta_ik`, row-major over the local dofs.
+pub fn add_mass<const D: usize>(element: Element<D>, density: f64, mass: &mut [f64]) {
+    let row = element.nodes() * D;
+    for point in element.points() {
+        for (a, n_a) in point.values.iter().enumerate() {
+            for (b, n_b) in point.values.iter().enumerate() {
+                let entry = point.weight * density * (n_a * n_b);
+                for i in 0..D {
+                    mass[(a * D + i) * row + b * D + i] += entry;
+                }
+            }
+        }
+    }
+}
+
+/// Share of each node in the volume: `volume_a += (N_a, 1)` `[m^D]`. A constant body force b loads node a with
+/// b times its share.
+pub fn add_volume<const D: usize>(element: Element<D>, volume: &mut [f64]) {
+    for point in element.points() {
+        for (v, n) in volume.iter_mut().zip(point.values) {
+            *v += point.weight * n;
+        }
+    }
+}
+
+/// Strain energy (W(grad d), 1) `[J, in 2D J/m]`.
+#[must_use]
+pub fn strain_energy<const D: usize>(
+    element: Element<D>,
+    material: &Material,
+    displacement: &[[f64; D]],
+) -> f64 {
+    element.points().map(|point| point.weight * material.energy(&point.gradient(displacement))).sum()
+}
+
+/// Kinetic energy (rho v, v)/2 `[J, in 2D J/m]`.
+#[must_use]
+pub fn kinetic_energy<const D: usize>(element: Element<D>, density: f64, velocity: &[[f64; D]]) -> f64 {
+    element
+        .points()
+        .map(|point| {
+            let v = point.value(velocity);
+            0.5 * density * point.weight * tensor::dot(&v, &v)
+        })
+        .sum()
+}
+
+/// Copies the upper triangle of a row-major square matrix to the lower one.
+fn mirror(matrix: &mut [f64], size: usize) {
+    for i in 1..size {
+        for j in 0..i {
+            matrix[i * size + j] = matrix[j * size + i];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::{Law, Plane};
+    use approx::assert_relative_eq;
+
+    /// A triangle of three nodes, (0,0), (2,0), (0,1), integrated by its three edge midpoints.
+    struct Triangle {
+        weights: [f64; 3],
+        values: [f64; 9],
+        gradients: [[f64; 2]; 9],
+    }
+
+    impl Triangle {
+        fn new() -> Self {
+            let gradient = [[-0.5, -1.0], [0.5, 0.0], [0.0, 1.0]];
+            Self {
+                weights: [1.0 / 3.0; 3],
+                values: [0.5, 0.5, 0.0, 0.0, 0.5, 0.5, 0.5, 0.0, 0.5],
+                gradients: std::array::from_fn(|entry| gradient[entry % 3]),
+            }
+        }
+
+        fn element(&self) -> Element<'_, 2> {
+            Element { weights: &self.weights, values: &self.values, gradients: &self.gradients }
+        }
+    }
+
+    const NODES: [[f64; 2]; 3] = [[0.0, 0.0], [2.0, 0.0], [0.0, 1.0]];
+
+    fn soft() -> Material {
+        Material::new(Law::StVenantKirchhoff, 3.0, 0.2, Plane::Strain).unwrap()
+    }
+
+    #[test]
+    fn tangent_is_derivative_of_internal_force() {
+        let triangle = Triangle::new();
+        let d = [[0.1, -0.2], [0.3, 0.4], [-0.25, 0.15]];
+        let (mut force, mut tangent) = ([[0.0; 2]; 3], [0.0; 36]);
+        let mut scratch = Scratch::new(3);
+        add_internal_force_and_tangent(
+            triangle.element(),
+            &soft(),
+            &d,
+            0.5,
+            &mut force,
+            &mut tangent,
+            &mut scratch,
+        );
+        for column in 0..6 {
+            let force_at = |step: f64| {
+                let (mut moved, mut force) = (d, [[0.0; 2]; 3]);
+                moved[column / 2][column % 2] += step;
+                add_internal_force(triangle.element(), &soft(), &moved, &mut force);
+                force
+            };
+            let (ahead, behind) = (force_at(1e-5), force_at(-1e-5));
+            for row in 0..6 {
+                let slope = (ahead[row / 2][row % 2] - behind[row / 2][row % 2]) / 2e-5;
+                assert_relative_eq!(tangent[row * 6 + column], 0.5 * slope, epsilon = 1e-9);
+                assert_eq!(tangent[row * 6 + column].to_bits(), tangent[column * 6 + row].to_bits());
+            }
+        }
+    }
+
+    #[test]
+    fn both_paths_to_the_internal_force_agree_to_the_bit() {
+        let triangle = Triangle::new();
+        let d = [[0.1, -0.2], [0.3, 0.4], [-0.25, 0.15]];
+        let (mut alone, mut together) = ([[0.0; 2]; 3], [[0.0; 2]; 3]);
+        add_internal_force(triangle.element(), &soft(), &d, &mut alone);
+        let mut scratch = Scratch::new(3);
+        add_internal_force_and_tangent(
+            triangle.element(),
+            &soft(),
+            &d,
+            1.0,
+            &mut together,
+            &mut [0.0; 36],
+            &mut scratch,
+        );
+        assert_eq!(alone, together);
+    }
+
+    #[test]
+    fn mass_matches_inertia_and_the_textbook_triangle() {
+        let triangle = Triangle::new();
+        let mut mass = [0.0; 36];
+        add_mass(triangle.element(), 12.0, &mut mass);
+        // rho area / 12 (1 + delta_ab)
+        assert_relative_eq!(mass[0], 2.0, max_relative = 1e-14);
+        assert_relative_eq!(mass[2], 1.0, max_relative = 1e-14);
+        assert_eq!(mass[1].to_bits(), 0);
+        let a = [[0.3, 0.7], [-1.1, 0.2], [0.5, -0.9]];
+        let mut force = [[0.0; 2]; 3];
+        add_inertia(triangle.element(), 12.0, &a, &mut force);
+        for row in 0..6 {
+            let product: f64 = (0..6).map(|column| mass[row * 6 + column] * a[column / 2][column % 2]).sum();
+            assert_relative_eq!(force[row / 2][row % 2], product, epsilon = 1e-14);
+        }
+    }
+
+    #[test]
+    fn energies_of_uniform_motions_are_closed_forms() {
+        let triangle = Triangle::new();
+        let kinetic = kinetic_energy(triangle.element(), 12.0, &[[3.0, 4.0]; 3]);
+        assert_relative_eq!(kinetic, 0.5 * 12.0 * 25.0, max_relative = 1e-14);
+        let stretch = NODES.map(|[x, _]| [0.1 * x, 0.0]);
+        let e: f64 = 0.5 * (1.1 * 1.1 - 1.0);
+        let expected = (0.5 * soft().lambda() + soft().mu()) * e * e;
+        assert_relative_eq!(
+            strain_energy(triangle.element(), &soft(), &stretch),
+            expected,
+            max_relative = 1e-14
+        );
+    }
+
+    #[test]
+    fn volume_shares_sum_to_the_volume() {
+        let mut volume = [0.0; 3];
+        add_volume(Triangle::new().element(), &mut volume);
+        for share in volume {
+            assert_relative_eq!(share, 1.0 / 3.0, max_relative = 1e-14);
+        }
+    }
+}

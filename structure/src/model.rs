@@ -1,0 +1,102 @@
+//! What a structure is made of, and how it is solved.
+
+use partita_iga::Side;
+use partita_numerics::newton;
+use serde::{Deserialize, Serialize};
+
+use crate::error::StructureError;
+use crate::load::BodyForce;
+use crate::material::{Material, Plane};
+use crate::step::TimeScheme;
+
+/// Properties, loads and supports of a structure.
+#[derive(Debug, Clone)]
+pub struct StructureModel<const D: usize> {
+    /// Mass per reference volume rho `[kg/m^3]`.
+    pub density: f64,
+    /// The elastic law.
+    pub material: Material,
+    /// Force per reference volume b `[N/m^3]`.
+    pub body_force: BodyForce<D>,
+    /// Sides whose control points do not move.
+    pub clamped: Vec<Side>,
+    /// Sides that form the interface.
+    pub wetted: Vec<Side>,
+}
+
+impl<const D: usize> StructureModel<D> {
+    pub(crate) fn check(&self) -> Result<(), StructureError> {
+        if !(self.density > 0.0 && self.density.is_finite()) {
+            return Err(StructureError::Density { value: self.density });
+        }
+        if D == 3 && self.material.plane() == Plane::Stress {
+            return Err(StructureError::PlaneStressInSpace);
+        }
+        Ok(())
+    }
+}
+
+/// How a structure is solved.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct StructureSettings {
+    /// Time integration.
+    pub time: TimeScheme,
+    /// When the Newton loop ends.
+    pub newton: newton::Settings,
+    /// Damping `C = mass M + stiffness K_0`.
+    pub rayleigh: Option<Rayleigh>,
+    /// Shortens Newton increments that overshoot.
+    pub line_search: Option<LineSearch>,
+}
+
+impl StructureSettings {
+    pub(crate) fn check(&self) -> Result<(), StructureError> {
+        if let Some(Rayleigh { mass, stiffness }) = self.rayleigh {
+            let is_fine = |factor: f64| factor >= 0.0 && factor.is_finite();
+            if !(is_fine(mass) && is_fine(stiffness)) {
+                return Err(StructureError::Damping { mass, stiffness });
+            }
+        }
+        if let Some(LineSearch { tolerance, max_evaluations }) = self.line_search
+            && !(tolerance > 0.0 && tolerance < 1.0 && max_evaluations > 0)
+        {
+            return Err(StructureError::LineSearch { tolerance, max_evaluations });
+        }
+        Ok(())
+    }
+}
+
+/// Rayleigh damping: `C = mass M + stiffness K_0` with the stiffness `K_0` of the reference configuration.
+///
+/// A mode of circular frequency omega gets the damping ratio (mass/omega + stiffness omega)/2.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rayleigh {
+    /// Factor of the mass `[1/s]`.
+    pub mass: f64,
+    /// Factor of the stiffness `[s]`.
+    pub stiffness: f64,
+}
+
+/// Line search on the work of the residual along the Newton increment (Matthies and Strang 1979).
+///
+/// With G(s) = delta . R(d + s delta): the full step stays if |G(1)| <= tolerance |G(0)|, or if it falls short
+/// (G has kept its sign); otherwise the root of G in (0, 1) is sought by regula falsi until the tolerance is met.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LineSearch {
+    /// How far |G| must fall.
+    pub tolerance: f64,
+    /// At most so many residuals an iteration.
+    pub max_evaluations: usize,
+}
+
+/// Unknowns that are judged together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// Its name.
+    pub name: &'static str,
+    /// Its free dofs in [`StructureSolver::values`](crate::StructureSolver::values).
+    pub dofs: Vec<usize>,
+}

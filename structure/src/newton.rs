@@ -1,0 +1,116 @@
+//! A structure as a nonlinear system for d_{n+1}.
+
+use partita_numerics::newton::{Problem, ResidualNorm};
+use partita_numerics::norms::norm2_at;
+use partita_numerics::phases::{Stopwatch, timed};
+
+use crate::assembly::Tangent;
+use crate::error::StructureError;
+use crate::model::LineSearch;
+use crate::solver::{StructureSolver, Work};
+use crate::step::average;
+
+impl<const D: usize> Problem for StructureSolver<D> {
+    type Error = StructureError;
+
+    /// Relative is `|R| / max(|f_int|, |C v|, |M a|, |f_ext|)`, all over the free dofs, 0/0 = 0.
+    fn assemble(&mut self, with_tangent: bool) -> Result<ResidualNorm, StructureError> {
+        let watch = Stopwatch::start();
+        self.evaluate(with_tangent);
+        let residual = self.residual_norm();
+        watch.stop(&mut self.phases.assembly);
+        Ok(residual)
+    }
+
+    fn solve_and_update(&mut self) -> Result<(), StructureError> {
+        let Work { residual, tangent, increment, .. } = &mut self.work;
+        let dofs = self.assembly.dofs();
+        dofs.gather(residual, increment);
+        timed(&mut self.phases.factorization, || self.factor.refactor(self.assembly.pattern(), tangent))?;
+        timed(&mut self.phases.solve, || self.factor.solve(increment));
+        for entry in &mut *increment {
+            *entry = -*entry;
+        }
+        match self.settings.line_search {
+            None => {
+                dofs.add_scaled(1.0, increment, &mut self.trial.displacement);
+                self.update_rates();
+            }
+            Some(settings) => self.search_along_increment(settings),
+        }
+        Ok(())
+    }
+}
+
+impl<const D: usize> StructureSolver<D> {
+    /// Residual, and tangent where asked for, at the trial displacement.
+    fn evaluate(&mut self, with_tangent: bool) {
+        let step = *self.step();
+        let (new, old) = (&self.trial, &self.committed);
+        let Work { motion, forces, external, residual, tangent, local, .. } = &mut self.work;
+        average(step.alpha_f(), &new.displacement, &old.displacement, &mut motion.displacement);
+        average(step.alpha_f(), &new.velocity, &old.velocity, &mut motion.velocity);
+        average(step.alpha_m(), &new.acceleration, &old.acceleration, &mut motion.acceleration);
+        average(step.alpha_f(), &new.external_force, &old.external_force, external);
+
+        let tangent = with_tangent.then(|| Tangent { weights: step.tangent_weights(), values: tangent });
+        self.assembly.evaluate(motion, tangent, local, forces);
+        for dof in 0..residual.len() {
+            residual[dof] = forces.inertia[dof] + forces.damping[dof] + forces.internal[dof] - external[dof];
+        }
+    }
+
+    fn residual_norm(&self) -> ResidualNorm {
+        let norm = |vector: &[f64]| norm2_at(vector, self.assembly.dofs().free());
+        let Work { forces, external, residual, .. } = &self.work;
+        let terms = [&forces.internal, &forces.damping, &forces.inertia, external];
+        let scale = terms.into_iter().map(|term| norm(term)).fold(0.0, f64::max);
+        ResidualNorm::new(norm(residual), scale)
+    }
+
+    /// d + s delta with the s in (0, 1] at which the work G(s) = delta . R(d + s delta) has fallen enough.
+    fn search_along_increment(&mut self, settings: LineSearch) {
+        self.work.start.copy_from_slice(&self.trial.displacement);
+        let work_at_start = self.work_along_increment();
+        let enough = settings.tolerance * work_at_start.abs();
+        // G changes sign between `low` and `high`, once the full step has turned out to overshoot.
+        let (mut low, mut work_low) = (0.0, work_at_start);
+        let (mut high, mut work_high) = (1.0, 0.0);
+        let mut s = 1.0;
+        for evaluation in 1..=settings.max_evaluations {
+            let work = self.try_step(s);
+            let falls_short = work * work_at_start > 0.0;
+            let is_full_step = evaluation == 1;
+            if work.abs() <= enough || (is_full_step && falls_short) || evaluation == settings.max_evaluations
+            {
+                return;
+            }
+            if falls_short {
+                (low, work_low) = (s, work);
+            } else {
+                (high, work_high) = (s, work);
+            }
+            // Regula falsi, kept off the ends: a stiffening structure overshoots by orders of magnitude.
+            let root = low - work_low * (high - low) / (work_high - work_low);
+            s = root.clamp(low + 0.1 * (high - low), high - 0.1 * (high - low));
+        }
+    }
+
+    /// Moves to start + s delta and returns G(s) there.
+    fn try_step(&mut self, s: f64) -> f64 {
+        self.trial.displacement.copy_from_slice(&self.work.start);
+        self.assembly.dofs().add_scaled(s, &self.work.increment, &mut self.trial.displacement);
+        self.update_rates();
+        let watch = Stopwatch::start();
+        self.evaluate(false);
+        watch.stop(&mut self.phases.assembly);
+        self.work_along_increment()
+    }
+
+    /// delta . R over the free dofs.
+    fn work_along_increment(&self) -> f64 {
+        let Work { residual, increment, .. } = &self.work;
+        let free = self.assembly.dofs().free();
+        free.iter().zip(increment).map(|(&dof, delta)| delta * residual[dof]).sum()
+    }
+}

@@ -1,0 +1,359 @@
+//! The solver of a structure: built once, then step after step.
+
+use partita_iga::Spline;
+use partita_numerics::newton::{self, Failure, Limit, Report, Verdict};
+use partita_numerics::{DofMap, PhaseSeconds};
+
+use crate::assembly::{Assembly, Forces, Local, Motion};
+use crate::error::StructureError;
+use crate::factor::TangentFactor;
+use crate::load;
+use crate::model::{Part, StructureModel, StructureSettings};
+use crate::space::Space;
+use crate::state::StructureState;
+use crate::step::{Scheme, Step};
+
+/// Nonlinear elastodynamics on one space.
+///
+/// The unknown of a step is `d_{n+1}`; velocity and acceleration follow from it by Newmark's relations. Its residual
+///
+/// ```text
+/// R = M a_{n+1-alpha_m} + C v_{n+1-alpha_f} + f_int(d_{n+1-alpha_f}) - f_ext_{n+1-alpha_f}
+/// ```
+///
+/// is kept on all dofs, those of clamped control points included: there it holds the reactions. A step starts from
+/// `d_n`. The caller composes it from [`begin_step`](Self::begin_step), [`impose`](Self::impose),
+/// [`newton::solve`] and [`commit`](Self::commit) or [`rewind`](Self::rewind); a structure alone takes
+/// [`advance`](Self::advance).
+///
+/// ```
+/// use partita_iga::{Side, build};
+/// use partita_structure::*;
+///
+/// // A cantilever of 1 m x 0.1 m under its own weight.
+/// let patch = build::rectangle([0.0, 0.0], [1.0, 0.1], [2, 2], [10, 1])?;
+/// let model = StructureModel {
+///     density: 1000.0,
+///     material: Material::new(Law::StVenantKirchhoff, 1e7, 0.3, Plane::Strain)?,
+///     body_force: BodyForce::Constant([0.0, -9.81e3]),
+///     clamped: vec![Side::LEFT],
+///     wetted: vec![],
+/// };
+/// let settings = StructureSettings { time: TimeScheme::QuasiStatic, ..Default::default() };
+/// let mut cantilever = StructureSolver::new(Space::Patch(patch), model, settings)?;
+/// let report = cantilever.advance(1.0, 1.0)?;
+/// assert!(report.converged);
+///
+/// let [_, deflection] = cantilever.displacement_at(&[1.0, 0.5]);
+/// let beam_theory = -9.81e3 * 0.1 / (8.0 * 1e7 / (1.0 - 0.3 * 0.3) * 0.1_f64.powi(3) / 12.0);
+/// assert!((deflection / beam_theory - 1.0).abs() < 0.03);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct StructureSolver<const D: usize> {
+    pub(crate) space: Space<D>,
+    pub(crate) model: StructureModel<D>,
+    pub(crate) settings: StructureSettings,
+    scheme: Scheme,
+    pub(crate) assembly: Assembly<D>,
+    pub(crate) factor: TangentFactor,
+    /// `(N_a, 1)` of every control point.
+    volumes: Vec<f64>,
+    interface_points: Vec<usize>,
+    parts: [Part; 1],
+    pub(crate) committed: StructureState,
+    pub(crate) trial: StructureState,
+    step: Option<Step>,
+    pub(crate) work: Work<D>,
+    pub(crate) phases: PhaseSeconds,
+}
+
+/// Vectors that live as long as the solver and carry nothing from one assembly to the next.
+pub(crate) struct Work<const D: usize> {
+    pub(crate) motion: Motion,
+    pub(crate) forces: Forces,
+    /// `f_ext` at `n+1-alpha_f`, on all dofs.
+    pub(crate) external: Vec<f64>,
+    /// R on all dofs.
+    pub(crate) residual: Vec<f64>,
+    /// Values of the tangent on the pattern.
+    pub(crate) tangent: Vec<f64>,
+    /// Newton increment on the free dofs.
+    pub(crate) increment: Vec<f64>,
+    /// Displacement from which a line search starts.
+    pub(crate) start: Vec<f64>,
+    pub(crate) local: Local<D>,
+}
+
+impl<const D: usize> StructureSolver<D> {
+    /// Tabulates the space, analyses the pattern and starts at rest without loads at t = 0.
+    ///
+    /// # Errors
+    /// When a property or setting is out of range, the geometry is folded, or a side does not exist.
+    pub fn new(
+        space: Space<D>,
+        model: StructureModel<D>,
+        settings: StructureSettings,
+    ) -> Result<Self, StructureError> {
+        model.check()?;
+        settings.check()?;
+        let scheme = settings.time.coefficients()?;
+        let clamped = space.nodes_of(&model.clamped)?;
+        let mut interface_points = space.nodes_of(&model.wetted)?;
+        interface_points.retain(|point| clamped.binary_search(point).is_err());
+        let elements = space.elements()?;
+
+        let dofs = DofMap::new(&prescribed_dofs::<D>(space.node_count(), &clamped));
+        if dofs.free_count() == 0 {
+            return Err(StructureError::NothingFree);
+        }
+        let parts = [Part { name: "displacement", dofs: dofs.free().to_vec() }];
+        let mut assembly = Assembly::new(elements, dofs, model.density, model.material);
+        if scheme == Scheme::QuasiStatic {
+            assembly = assembly.without_inertia();
+        }
+        if let Some(rayleigh) = settings.rayleigh {
+            assembly = assembly.with_damping(rayleigh);
+        }
+        let state = StructureState::at_rest(space.node_count() * D, interface_points.len() * D);
+        Ok(Self {
+            factor: TangentFactor::new(assembly.pattern())?,
+            volumes: assembly.volumes(),
+            work: Work::new(&assembly),
+            committed: state.clone(),
+            trial: state,
+            step: None,
+            phases: PhaseSeconds::default(),
+            space,
+            model,
+            settings,
+            scheme,
+            assembly,
+            interface_points,
+            parts,
+        })
+    }
+
+    /// Control points on the wetted sides that can move, ascending, those at corners once.
+    #[must_use]
+    pub fn interface_points(&self) -> &[usize] {
+        &self.interface_points
+    }
+
+    /// Begins the step of size `dt` `[s]` that ends at `time` `[s]`, from the committed state: `d = d_n` under the body
+    /// force of `time` and the interface force of the committed state, until [`impose`](Self::impose) replaces it.
+    ///
+    /// # Panics
+    /// When `dt` is not positive and finite.
+    pub fn begin_step(&mut self, time: f64, dt: f64) {
+        self.step = Some(Step::new(self.scheme, dt));
+        self.trial.copy_from(&self.committed);
+        self.trial.time = time;
+        self.update_external_force();
+        self.update_rates();
+    }
+
+    /// Imposes the forces `[N, in 2D N/m]` at the interface points at `t_{n+1}`, numbered `point * D + c`.
+    ///
+    /// Like every load they act at `n+1-alpha_f`, averaged with those of `t_n`.
+    ///
+    /// # Panics
+    /// When there is not one value for each component of each interface point.
+    pub fn impose(&mut self, interface_force: &[f64]) {
+        assert_eq!(
+            interface_force.len(),
+            self.trial.interface_force.len(),
+            "the interface force has the wrong length"
+        );
+        self.trial.interface_force.copy_from_slice(interface_force);
+        self.update_external_force();
+    }
+
+    /// Displacements `[m]` of the interface points at `t_{n+1}`, numbered `point * D + c`.
+    ///
+    /// # Panics
+    /// When `displacement` has the wrong length.
+    pub fn output(&self, displacement: &mut [f64]) {
+        assert_eq!(displacement.len(), self.interface_points.len() * D, "the output has the wrong length");
+        let all = self.trial.displacement.as_chunks::<D>().0;
+        for (entry, &point) in displacement.as_chunks_mut::<D>().0.iter_mut().zip(&self.interface_points) {
+            *entry = all[point];
+        }
+    }
+
+    /// Accepts the step: the trial state becomes the committed one.
+    pub fn commit(&mut self) {
+        self.committed.copy_from(&self.trial);
+    }
+
+    /// Gives the step up: the trial state becomes the committed one again.
+    pub fn rewind(&mut self) {
+        self.trial.copy_from(&self.committed);
+    }
+
+    /// Steps a structure alone to `time` `[s]` by one step of size `dt` `[s]`: Newton to convergence, then commit.
+    ///
+    /// # Errors
+    /// When Newton fails; the step is then given up.
+    pub fn advance(&mut self, time: f64, dt: f64) -> Result<Report, Failure<StructureError>> {
+        self.begin_step(time, dt);
+        let settings = self.settings.newton;
+        let report = newton::solve(self, &settings, Limit::ToConvergence, |_, _| Verdict::Continue);
+        match report {
+            Ok(_) => self.commit(),
+            Err(_) => self.rewind(),
+        }
+        report
+    }
+
+    /// Makes the committed state one of dynamic equilibrium under the loads of `time` `[s]`: sets `F_0` to the body force
+    /// (and the interface force of the state), and `a_0` by
+    ///
+    /// ```text
+    /// M a_0 = F_0 - f_int(d_0) - C v_0
+    /// ```
+    ///
+    /// A structure alone starts so, for otherwise a load that is there from the start leaves a velocity of order
+    /// dt F/M behind. A coupled run does not call this: it starts with `a_0 = 0` and `F_0 = 0`. Without inertia only
+    /// `F_0` is set.
+    ///
+    /// # Errors
+    /// When the mass matrix cannot be factored.
+    pub fn start_from_equilibrium(&mut self, time: f64) -> Result<(), StructureError> {
+        self.trial.copy_from(&self.committed);
+        self.trial.time = time;
+        self.trial.acceleration.fill(0.0);
+        self.update_external_force();
+        if self.scheme != Scheme::QuasiStatic {
+            self.solve_for_acceleration()?;
+        }
+        self.commit();
+        Ok(())
+    }
+
+    /// Displacement of all control points in the trial state `[m]`, numbered `control_point * D + c`.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.trial.displacement
+    }
+
+    /// The unknowns in [`values`](Self::values) that are judged together: one part, `displacement`.
+    #[must_use]
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The trial state: `t_{n+1}` between [`begin_step`](Self::begin_step) and [`commit`](Self::commit).
+    #[must_use]
+    pub fn trial(&self) -> &StructureState {
+        &self.trial
+    }
+
+    /// The committed state.
+    #[must_use]
+    pub fn state(&self) -> &StructureState {
+        &self.committed
+    }
+
+    /// Continues from a saved state, with the same bits as the run that saved it.
+    ///
+    /// # Errors
+    /// When its lengths are those of another structure.
+    pub fn restore(&mut self, state: &StructureState) -> Result<(), StructureError> {
+        self.committed.check_fits(state)?;
+        self.committed.copy_from(state);
+        self.rewind();
+        Ok(())
+    }
+
+    /// The patch in its reference configuration.
+    #[must_use]
+    pub fn spline(&self) -> &Spline<D> {
+        match &self.space {
+            Space::Patch(spline) => spline,
+        }
+    }
+
+    /// Properties, loads and supports.
+    #[must_use]
+    pub fn model(&self) -> &StructureModel<D> {
+        &self.model
+    }
+
+    /// When the Newton loop ends.
+    #[must_use]
+    pub fn newton_settings(&self) -> &newton::Settings {
+        &self.settings.newton
+    }
+
+    /// Time spent since the solver was built `[s]`.
+    #[must_use]
+    pub fn phases(&self) -> PhaseSeconds {
+        self.phases
+    }
+
+    /// How many tangents were not positive definite since the solver was built: past a buckling load, say.
+    #[must_use]
+    pub fn indefinite_tangents(&self) -> usize {
+        self.factor.indefinite_count()
+    }
+
+    pub(crate) fn step(&self) -> &Step {
+        self.step.as_ref().expect("`begin_step` comes before the first assembly")
+    }
+
+    /// Velocity and acceleration after a change of the trial displacement.
+    pub(crate) fn update_rates(&mut self) {
+        let step = *self.step();
+        step.follow(&self.committed, &mut self.trial);
+    }
+
+    fn update_external_force(&mut self) {
+        load::external_force::<D>(
+            self.model.body_force.at(self.trial.time),
+            &self.volumes,
+            &self.interface_points,
+            &self.trial.interface_force,
+            &mut self.trial.external_force,
+        );
+    }
+
+    fn solve_for_acceleration(&mut self) -> Result<(), StructureError> {
+        let Work { motion, forces, residual, increment, local, .. } = &mut self.work;
+        motion.displacement.copy_from_slice(&self.trial.displacement);
+        motion.velocity.copy_from_slice(&self.trial.velocity);
+        motion.acceleration.fill(0.0);
+        self.assembly.evaluate(motion, None, local, forces);
+        for dof in 0..residual.len() {
+            residual[dof] = self.trial.external_force[dof] - forces.internal[dof] - forces.damping[dof];
+        }
+        self.assembly.dofs().gather(residual, increment);
+        self.factor.refactor(self.assembly.pattern(), self.assembly.mass())?;
+        self.factor.solve(increment);
+        self.assembly.dofs().add_scaled(1.0, increment, &mut self.trial.acceleration);
+        Ok(())
+    }
+}
+
+impl<const D: usize> Work<D> {
+    fn new(assembly: &Assembly<D>) -> Self {
+        let dofs = assembly.dofs().total();
+        Self {
+            motion: Motion::new(dofs),
+            forces: Forces::new(dofs),
+            external: vec![0.0; dofs],
+            residual: vec![0.0; dofs],
+            tangent: vec![0.0; assembly.pattern().nonzeros()],
+            increment: vec![0.0; assembly.dofs().free_count()],
+            start: vec![0.0; dofs],
+            local: assembly.local(),
+        }
+    }
+}
+
+fn prescribed_dofs<const D: usize>(nodes: usize, clamped: &[usize]) -> Vec<bool> {
+    let mut prescribed = vec![false; nodes * D];
+    for &node in clamped {
+        prescribed[node * D..][..D].fill(true);
+    }
+    prescribed
+}

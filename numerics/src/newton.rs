@@ -7,6 +7,8 @@ mod failure;
 mod norm;
 mod run;
 mod settings;
+#[cfg(test)]
+mod tests;
 
 pub use failure::Failure;
 pub use norm::{Bound, ResidualNorm};

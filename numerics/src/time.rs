@@ -150,3 +150,139 @@ impl GeneralizedAlpha {
         Ok(Self { alpha_m, alpha_f, gamma: shift - 0.5, beta: shift * shift / 4.0 })
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "these values are exact")]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use nalgebra::Matrix3;
+    use proptest::prelude::*;
+
+    /// `D_t` of t^degree at t = 1 s from its values at the last time levels.
+    fn derivative_of_power(bdf: &Bdf, dt_previous: f64, degree: i32) -> f64 {
+        let power = |t: f64| t.powi(degree);
+        bdf.derivative(power(1.0), power(1.0 - bdf.dt), power(1.0 - bdf.dt - dt_previous))
+    }
+
+    proptest! {
+        #[test]
+        fn first_order_is_exact_for_linear_functions_only(dt in 1e-3..1.0) {
+            let bdf = Bdf::first(dt);
+            prop_assert!((derivative_of_power(&bdf, dt, 0)).abs() < 1e-12);
+            prop_assert!((derivative_of_power(&bdf, dt, 1) - 1.0).abs() < 1e-12);
+            prop_assert!((derivative_of_power(&bdf, dt, 2) - 2.0 + dt).abs() < 1e-12);
+        }
+
+        #[test]
+        fn second_order_is_exact_for_quadratic_functions_only(dt in 1e-3..1.0, dt_previous in 1e-3..1.0) {
+            let bdf = Bdf::second(dt, dt_previous);
+            let round_off = 1e-15 * bdf.c.iter().map(|c| c.abs()).sum::<f64>() + 1e-14;
+            for (degree, exact) in [(0, 0.0), (1, 1.0), (2, 2.0), (3, 3.0 - dt * (dt + dt_previous))] {
+                let derivative = derivative_of_power(&bdf, dt_previous, degree);
+                prop_assert!((derivative - exact).abs() < round_off, "degree {degree}: {derivative}");
+            }
+        }
+    }
+
+    #[test]
+    fn equal_steps_give_the_textbook_coefficients() {
+        assert_eq!(Bdf::second(0.5, 0.5).c, [3.0, -4.0, 1.0]);
+        assert_eq!(Bdf::first(0.5).c, [2.0, -2.0, 0.0]);
+    }
+
+    #[test]
+    fn first_step_is_of_first_order() {
+        assert_eq!(Bdf::of_order(BdfOrder::Two, 0.1, None), Bdf::first(0.1));
+        assert_eq!(Bdf::of_order(BdfOrder::Two, 0.1, Some(0.2)), Bdf::second(0.1, 0.2));
+        assert_eq!(Bdf::of_order(BdfOrder::One, 0.1, Some(0.2)), Bdf::first(0.1));
+    }
+
+    #[test]
+    #[should_panic(expected = "positive and finite")]
+    fn step_of_no_length_is_refused() {
+        let _ = Bdf::second(0.1, 0.0);
+    }
+
+    fn scheme(radius: f64) -> GeneralizedAlpha {
+        GeneralizedAlpha::from_spectral_radius(radius).unwrap()
+    }
+
+    #[test]
+    fn known_radii_give_known_parameters() {
+        let known = [
+            (0.0, [-1.0, 0.0, 1.5, 1.0]),
+            (0.5, [0.0, 1.0 / 3.0, 5.0 / 6.0, 4.0 / 9.0]),
+            (1.0, [0.5, 0.5, 0.5, 0.25]),
+        ];
+        for (radius, [alpha_m, alpha_f, gamma, beta]) in known {
+            let scheme = scheme(radius);
+            assert_relative_eq!(scheme.alpha_m, alpha_m, epsilon = 1e-15);
+            assert_relative_eq!(scheme.alpha_f, alpha_f, epsilon = 1e-15);
+            assert_relative_eq!(scheme.gamma, gamma, epsilon = 1e-15);
+            assert_relative_eq!(scheme.beta, beta, epsilon = 1e-15);
+        }
+    }
+
+    #[test]
+    fn every_radius_is_second_order_and_unconditionally_stable() {
+        for radius in (0..=20).map(|i| f64::from(i) / 20.0) {
+            let GeneralizedAlpha { alpha_m, alpha_f, gamma, beta } = scheme(radius);
+            assert_relative_eq!(gamma, 0.5 - alpha_m + alpha_f, epsilon = 1e-15);
+            assert!(alpha_m <= alpha_f + 1e-15 && alpha_f <= 0.5);
+            assert!(beta >= 0.25 + 0.5 * (alpha_f - alpha_m) - 1e-15);
+        }
+    }
+
+    /// Takes (d, dt v, dt^2 a) of a free oscillator over one step; `omega` is its frequency times dt.
+    fn amplification(scheme: GeneralizedAlpha, omega: f64) -> Matrix3<f64> {
+        let GeneralizedAlpha { alpha_m, alpha_f, gamma, beta } = scheme;
+        let stiffness = omega * omega;
+        let inertia = 1.0 - alpha_m + stiffness * (1.0 - alpha_f) * beta;
+        let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|[d, v, a]| {
+            let predicted = d + v + (0.5 - beta) * a;
+            let new = -(alpha_m * a + stiffness * ((1.0 - alpha_f) * predicted + alpha_f * d)) / inertia;
+            [predicted + beta * new, v + (1.0 - gamma) * a + gamma * new, new]
+        });
+        Matrix3::from_fn(|i, j| columns[j][i])
+    }
+
+    fn spectral_radius(matrix: Matrix3<f64>) -> f64 {
+        matrix.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn spectral_radius_at_infinite_frequency_is_the_one_asked_for() {
+        for radius in [0.0, 0.25, 0.5, 0.8, 1.0] {
+            // The eigenvalue there is double or triple, so that round-off enters by its square or cube root.
+            assert_relative_eq!(spectral_radius(amplification(scheme(radius), 1e9)), radius, epsilon = 1e-4);
+        }
+    }
+
+    #[test]
+    fn no_frequency_is_amplified() {
+        for radius in [0.0, 0.25, 0.5, 0.8, 1.0] {
+            for omega in (-40..=80).map(|k| 10_f64.powf(f64::from(k) / 10.0)) {
+                let amplification = spectral_radius(amplification(scheme(radius), omega));
+                // Towards infinity the eigenvalues meet: see above.
+                assert!(amplification < 1.0 + 1e-4, "{amplification} at {omega}, radius {radius}");
+            }
+        }
+    }
+
+    #[test]
+    fn gain_of_an_interface_load_is_that_of_the_coupling_theory() {
+        for (radius, gain) in [(0.0, 0.5), (0.5, 8.0 / 27.0), (1.0, 0.25)] {
+            let GeneralizedAlpha { alpha_m, alpha_f, beta, .. } = scheme(radius);
+            assert_relative_eq!((1.0 - alpha_f) * beta / (1.0 - alpha_m), gain, epsilon = 1e-15);
+        }
+    }
+
+    #[test]
+    fn radius_outside_the_unit_interval_is_refused() {
+        for radius in [-0.1, 1.1, f64::NAN] {
+            let error = GeneralizedAlpha::from_spectral_radius(radius).unwrap_err();
+            assert!(error.to_string().contains("\nhint: "));
+        }
+    }
+}

@@ -220,7 +220,7 @@ fn pressure_fixed_nowhere_is_singular_in_every_flow() {
 
 #[test]
 fn body_without_supports_is_singular_with_every_method() {
-    for n in [1, 6, 30, 100] {
+    for n in [1, 6, 30, 60] {
         for (method, poisson_ratio) in
             METHODS.into_iter().flat_map(|method| [(method, 0.3), (method, 0.49999)])
         {

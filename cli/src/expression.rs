@@ -8,7 +8,7 @@
 //! primary = number | name | name "(" sum { "," sum } ")" | "(" sum ")"
 //! ```
 //!
-//! Names are the position (`x`, `y`, in three dimensions `z`) [m], the time `t` [s], `pi`, and the functions
+//! Names are the position (`x`, `y`, in three dimensions `z`) \[m\], the time `t` \[s\], `pi`, and the functions
 //! listed in [`FUNCTIONS`]. The grammar is our own because a profile such as `exp(-y^2)` must mean what it says: the
 //! expression crate tried first read it as `exp((-y)^2)`, refused `1e-3` and gave no place with an error.
 

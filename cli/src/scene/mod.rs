@@ -1,3 +1,19 @@
 //! Scene files: read, checked, explained.
+//!
+//! [`load`] reads a file and the overrides of the command line into a [`Scene`](schema::Scene) whose values are in range and
+//! fit together, or returns a [`SceneError`] that shows the line, the place and how to mend it.
 
+mod diagnose;
+mod document;
+mod finding;
+mod overrides;
+mod reference;
+mod resolve;
 pub mod schema;
+mod translate;
+mod validate;
+mod write;
+
+pub use diagnose::{Problem, SceneError};
+pub use resolve::{Resolved, SCENE_FILE, load, parse};
+pub use write::to_toml;

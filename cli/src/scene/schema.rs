@@ -12,9 +12,12 @@ mod numbers;
 mod output;
 mod structure;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use coupling::{Acceleration, Convergence, Coupling, Filter, NewtonPolicy, OnLimit, Predictor};
+pub use coupling::{
+    Acceleration, Convergence, Coupling, Filter, NewtonPolicy, OnLimit, Predictor, QuasiNewton,
+};
 pub use fluid::{
     Condition, Diagonals, Fluid, FluidMesh, FluidTimeScheme, Initial, MeshMotion, MotionLaw, MotionMode,
     Outflow, PressurePin, RectangleMesh, Tangent,
@@ -33,7 +36,7 @@ pub use structure::{
 };
 
 /// A whole scene: a fluid, a structure, or both coupled.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// One line that names the scene.
@@ -55,11 +58,42 @@ pub struct Scene {
 }
 
 /// `[time]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
-    /// Size of a time step [s].
+    /// Size of a time step \[s\].
     pub step: Positive,
     /// Number of time steps.
     pub steps: Count,
+}
+
+/// Where a scene makes one of several choices; `*` stands for any name.
+///
+/// At these places a bare word names a choice that takes its defaults, and an override replaces the choice in the
+/// file instead of standing beside it.
+pub(super) const CHOICES: [&str; 15] = [
+    "fluid.mesh",
+    "fluid.boundary.*",
+    "fluid.initial",
+    "fluid.newton.tolerance",
+    "fluid.mesh_motion.law",
+    "structure.geometry",
+    "structure.material",
+    "structure.time_scheme",
+    "structure.newton.tolerance",
+    "coupling.acceleration",
+    "coupling.acceleration.*.filter",
+    "coupling.convergence",
+    "coupling.convergence.interface_residual",
+    "coupling.newton",
+    "output.probes.*",
+];
+
+/// Whether one of several choices is made at this path.
+pub(super) fn is_choice(path: &[String]) -> bool {
+    CHOICES.iter().any(|choice| {
+        let mut names = path.iter();
+        choice.split('.').all(|step| names.next().is_some_and(|name| step == "*" || step == name))
+            && names.next().is_none()
+    })
 }

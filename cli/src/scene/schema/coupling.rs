@@ -1,14 +1,16 @@
 //! `[coupling]`: how fluid and structure meet.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::limit::Limit;
+use super::newton::Tolerance;
 use super::numbers::{Count, Fraction, Positive, Relaxation};
 
 /// `[coupling]`: Dirichlet-Neumann iterations, fluid first.
 ///
 /// What meets is not said here: the fluid's boundary groups marked `"interface"` and the structure's `wetted` sides.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Coupling {
     /// Coupling iterations a step may take. Default: 100.
@@ -42,7 +44,7 @@ fn projection_tolerance() -> Positive {
 }
 
 /// `coupling.on_limit`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OnLimit {
     /// The run ends with an error.
@@ -53,7 +55,7 @@ pub enum OnLimit {
 }
 
 /// `coupling.predictor`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Predictor {
     /// The last step's displacement.
@@ -68,7 +70,7 @@ pub enum Predictor {
 }
 
 /// `[coupling.acceleration.*]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Acceleration {
     /// x <- x + omega r with one omega.
@@ -82,62 +84,56 @@ pub enum Acceleration {
         #[serde(default = "initial_relaxation")]
         initial_relaxation: Relaxation,
     },
-    /// Least squares over the last steps' differences.
-    IqnIls {
-        /// Factor of an iteration without any difference. Default: 0.1.
-        #[serde(default = "initial_relaxation")]
-        initial_relaxation: Relaxation,
-        /// Earlier steps whose differences are kept, or `"unlimited"`. Default: 0.
-        #[serde(default = "no_steps")]
-        reused_steps: Limit<0>,
-        /// Which nearly dependent differences are dropped. Default: `{ qr3 = 1e-2 }`.
-        #[serde(default)]
-        filter: Filter,
-    },
-    /// Inverse Jacobian updated from step to step, stored as a matrix.
-    IqnMvj {
-        /// Factor of an iteration without any difference. Default: 0.1.
-        #[serde(default = "initial_relaxation")]
-        initial_relaxation: Relaxation,
-        /// Which nearly dependent differences are dropped. Default: `{ qr3 = 1e-2 }`.
-        #[serde(default)]
-        filter: Filter,
-    },
+    /// Least squares over the differences of this step and earlier ones.
+    IqnIls(QuasiNewton),
+    /// Inverse Jacobian updated from step to step, stored as a matrix: for small interfaces.
+    IqnMvj(QuasiNewton),
     /// The same update from stored differences, without the matrix (Spenke, Hosters, Behr 2020).
-    IqnImvls {
-        /// Factor of an iteration without any difference. Default: 0.1.
-        #[serde(default = "initial_relaxation")]
-        initial_relaxation: Relaxation,
-        /// Earlier steps in the Jacobian, or `"unlimited"`. Default: `"unlimited"`.
-        #[serde(default = "all_steps")]
-        history_steps: Limit<0>,
-        /// Relaxes the first iteration of every step, history or not. Default: false.
-        #[serde(default)]
-        relax_first_iteration: bool,
-        /// Which nearly dependent differences are dropped. Default: `{ qr3 = 1e-2 }`.
-        #[serde(default)]
-        filter: Filter,
-    },
+    IqnImvls(QuasiNewton),
+}
+
+/// Options of the quasi-Newton accelerations.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct QuasiNewton {
+    /// Factor of an iteration without any difference. Default: 0.1.
+    pub initial_relaxation: Relaxation,
+    /// Earlier steps whose differences are used, or `"unlimited"`. Default: 5.
+    pub history_steps: Limit<0>,
+    /// Relaxes the first iteration of every step, history or not. Default: false.
+    pub relax_first_iteration: bool,
+    /// Keeps the differences to the last iteration of a converged step too. Default: true.
+    pub keep_last_differences: bool,
+    /// Which nearly dependent differences are dropped. Default: `{ qr3 = 1e-2 }`.
+    pub filter: Filter,
+}
+
+impl Default for QuasiNewton {
+    fn default() -> Self {
+        Self {
+            initial_relaxation: initial_relaxation(),
+            history_steps: Limit::AtMost(5),
+            relax_first_iteration: false,
+            keep_last_differences: true,
+            filter: Filter::default(),
+        }
+    }
 }
 
 fn initial_relaxation() -> Relaxation {
     Relaxation::new(0.1).expect("0.1 is a relaxation factor")
 }
 
-const fn no_steps() -> Limit<0> {
-    Limit::AtMost(0)
-}
-
-const fn all_steps() -> Limit<0> {
-    Limit::Unlimited
-}
-
 /// `filter` of the quasi-Newton accelerations.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Filter {
-    /// Every difference is used.
+    /// Every independent difference is used.
     None,
+    /// Drops a column whose part orthogonal to the newer ones is below this part of all columns together.
+    Qr1(Fraction),
+    /// Like `qr3`, with a new factorization in every iteration.
+    Qr2(Fraction),
     /// Drops a column whose part orthogonal to the newer ones is below this part of its own length.
     Qr3(Fraction),
 }
@@ -149,15 +145,16 @@ impl Default for Filter {
 }
 
 /// `coupling.convergence`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Convergence {
     /// Every field's relative change in one coupling iteration is below this, and every residual below its bound.
     Changes(Positive),
     /// Every field enters its call with a residual below its bound (Spenke, Delaisse, Degroote, Hosters 2023).
     EntryResiduals,
-    /// The interface residual relative to the interface displacement, and every residual below its bound.
-    InterfaceResidual(Positive),
+    /// The change of the interface displacement in one coupling iteration is below this bound \[m\], and every
+    /// residual below its own.
+    InterfaceResidual(Tolerance),
 }
 
 impl Default for Convergence {
@@ -167,7 +164,7 @@ impl Default for Convergence {
 }
 
 /// `coupling.newton`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum NewtonPolicy {
     /// The same limits in every call.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::formula::VectorFormula;
@@ -9,14 +10,14 @@ use super::newton::Newton;
 use super::numbers::{Count, NonNegative, PoissonRatio, Positive, Real};
 
 /// `[fluid]`: incompressible Newtonian flow.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fluid {
-    /// Density [kg/m3].
+    /// Density \[kg/m3\].
     pub density: Positive,
-    /// Dynamic viscosity [Pa s].
+    /// Dynamic viscosity \[Pa s\].
     pub viscosity: Positive,
-    /// Force per mass [m/s2], numbers or expressions of `x`, `y`, `t`. Default: none.
+    /// Force per mass \[m/s2\], numbers or expressions of `x`, `y`, `t`. Default: none.
     #[serde(default)]
     pub body_force: VectorFormula,
     /// Time derivative: `"bdf1"` (default), `"bdf2"` or `"steady"`.
@@ -51,7 +52,7 @@ fn inverse_constant() -> Positive {
 }
 
 /// `fluid.time_scheme`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FluidTimeScheme {
     /// Backward differences of first order (backward Euler).
@@ -64,7 +65,7 @@ pub enum FluidTimeScheme {
 }
 
 /// `fluid.tangent`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Tangent {
     /// The whole derivative of the residual: quadratic convergence.
@@ -77,31 +78,40 @@ pub enum Tangent {
 }
 
 /// `[fluid.pressure_pin]`: the pressure of one node.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PressurePin {
-    /// The node nearest to this point [m] is held.
+    /// The node nearest to this point \[m\] is held.
     pub point: [Real; 2],
-    /// Its pressure [Pa].
+    /// Its pressure \[Pa\].
     pub value: Real,
 }
 
 /// `[fluid.mesh.*]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FluidMesh {
     /// Triangles in a rectangle; boundary groups `left`, `right`, `bottom`, `top`.
     Rectangle(RectangleMesh),
 }
 
+impl FluidMesh {
+    /// The boundary groups of the mesh, as far as the scene tells them.
+    pub(in crate::scene) fn groups(&self) -> Vec<&str> {
+        match self {
+            Self::Rectangle(_) => vec!["left", "right", "bottom", "top"],
+        }
+    }
+}
+
 /// `[fluid.mesh.rectangle]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RectangleMesh {
-    /// Lower left corner [m]. Default: `[0, 0]`.
+    /// Lower left corner \[m\]. Default: `[0, 0]`.
     #[serde(default = "origin")]
     pub origin: [Real; 2],
-    /// Width and height [m].
+    /// Width and height \[m\].
     pub size: [Positive; 2],
     /// Squares along each side.
     pub divisions: [Count; 2],
@@ -115,7 +125,7 @@ pub(super) fn origin() -> [Real; 2] {
 }
 
 /// `fluid.mesh.rectangle.diagonals`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Diagonals {
     /// Both diagonals: four triangles a square.
@@ -130,7 +140,7 @@ pub enum Diagonals {
 }
 
 /// `fluid.boundary.<group>`: what holds on one boundary group.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Condition {
     /// The fluid sticks to the wall; where the mesh moves, to the moving wall.
@@ -139,11 +149,11 @@ pub enum Condition {
     Slip,
     /// Coupled to the structure's wetted sides.
     Interface,
-    /// Given velocity [m/s] in `x`, `y`, `t`.
+    /// Given velocity \[m/s\] in `x`, `y`, `t`.
     Velocity(VectorFormula),
-    /// A wall that moves with this displacement [m] in `x`, `y`, `t`, the fluid sticking to it.
+    /// A wall that moves with this displacement \[m\] in `x`, `y`, `t`, the fluid sticking to it.
     WallMotion(VectorFormula),
-    /// Given traction [Pa] in `x`, `y`, `t`.
+    /// Given traction \[Pa\] in `x`, `y`, `t`.
     Traction(VectorFormula),
     /// Outflow with -p n + mu grad u n = 0.
     DoNothing(Outflow),
@@ -152,7 +162,7 @@ pub enum Condition {
 }
 
 /// Options of the outflow conditions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Outflow {
     /// Damps fluid that enters through the outflow. Default: false.
@@ -160,18 +170,18 @@ pub struct Outflow {
 }
 
 /// `fluid.initial`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Initial {
     /// Velocity and pressure zero.
     #[default]
     Rest,
-    /// Velocity [m/s] in `x`, `y`; pressure zero.
+    /// Velocity \[m/s\] in `x`, `y`; pressure zero.
     Velocity(VectorFormula),
 }
 
 /// `[fluid.mesh_motion]`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MeshMotion {
     /// Equation the mesh displacement solves. Default: `elastic`.
@@ -183,7 +193,7 @@ pub struct MeshMotion {
 }
 
 /// `fluid.mesh_motion.law`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum MotionLaw {
     /// Linear elasticity.
@@ -218,7 +228,7 @@ impl Default for MotionLaw {
 }
 
 /// `fluid.mesh_motion.mode`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionMode {
     /// From the mesh at t = 0: the matrix is factored once a run.

@@ -1,8 +1,10 @@
 //! A number, or an expression of `x`, `y`, `t`.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, Visitor};
 use serde::ser::Serializer;
 use serde::{Deserialize, Serialize};
@@ -14,12 +16,12 @@ use crate::expression::Expression;
 pub enum Formula {
     /// The same everywhere and always.
     Number(f64),
-    /// An expression of the position `x`, `y` [m] and the time `t` [s].
+    /// An expression of the position `x`, `y` \[m\] and the time `t` \[s\].
     Expression(Expression<2>),
 }
 
 impl Formula {
-    /// The value at a position [m] and a time [s].
+    /// The value at a position \[m\] and a time \[s\].
     #[must_use]
     pub fn value(&self, position: &[f64; 2], time: f64) -> f64 {
         match self {
@@ -36,7 +38,7 @@ impl Default for Formula {
 }
 
 /// Two components.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct VectorFormula(pub [Formula; 2]);
 
@@ -44,7 +46,7 @@ pub struct VectorFormula(pub [Formula; 2]);
 pub type VectorFunction = Arc<dyn Fn(&[f64; 2], f64) -> [f64; 2] + Send + Sync>;
 
 impl VectorFormula {
-    /// The value at a position [m] and a time [s].
+    /// The value at a position \[m\] and a time \[s\].
     #[must_use]
     pub fn value(&self, position: &[f64; 2], time: f64) -> [f64; 2] {
         [self.0[0].value(position, time), self.0[1].value(position, time)]
@@ -105,5 +107,15 @@ impl Visitor<'_> for FormulaVisitor {
 
     fn visit_str<E: de::Error>(self, value: &str) -> Result<Formula, E> {
         Expression::parse(value).map(Formula::Expression).map_err(E::custom)
+    }
+}
+
+impl JsonSchema for Formula {
+    fn schema_name() -> Cow<'static, str> {
+        "Formula".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": ["number", "string"] })
     }
 }

@@ -1,7 +1,9 @@
 //! A count, or the word `"unlimited"`.
 
+use std::borrow::Cow;
 use std::fmt;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, Visitor};
 use serde::ser::Serializer;
 use serde::{Deserialize, Serialize};
@@ -73,5 +75,15 @@ impl<const MIN: usize> Visitor<'_> for LimitVisitor<MIN> {
         } else {
             Err(E::invalid_value(de::Unexpected::Str(value), &self))
         }
+    }
+}
+
+impl<const MIN: usize> JsonSchema for Limit<MIN> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("LimitFrom{MIN}").into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [{ "type": "integer", "minimum": MIN }, { "const": "unlimited" }] })
     }
 }

@@ -1,11 +1,12 @@
 //! `[fluid.newton]` and `[structure.newton]`.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::numbers::{Count, Positive};
 
 /// How one field's nonlinear equations are solved.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Newton {
     /// When the residual is small enough. Default: `{ relative = 1e-10 }`.
@@ -26,18 +27,18 @@ impl Default for Newton {
     }
 }
 
-/// `tolerance` of a residual.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// `tolerance`: how small is small enough.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Tolerance {
-    /// Part of the largest term of the equations.
+    /// Part of the natural scale: for a residual the largest term of its equations.
     Relative(Positive),
-    /// 2-norm of the residual [N in 3D, N/m in 2D].
+    /// In the unit of what is measured: for a residual of forces N, in two dimensions N/m.
     Absolute(Positive),
 }
 
 /// `check`: which residual decides that a call has converged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Check {
     /// The residual before each solve: a call that enters converged costs no iteration.

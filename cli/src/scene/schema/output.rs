@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::numbers::{Count, Parameter, Real};
 
 /// `[output]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Output {
     /// Steps between two files of fields; 0 writes none. Default: 1.
@@ -32,13 +33,13 @@ impl Default for Output {
 }
 
 /// `output.probes.<name>`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Probe {
-    /// Displacement [m] of the structure at these spline parameters, each from 0 to 1.
+    /// Displacement \[m\] of the structure at these spline parameters, each from 0 to 1.
     StructureDisplacement([Parameter; 2]),
-    /// Force of the fluid on this boundary group [N in 3D, N/m in 2D].
+    /// Force of the fluid on this boundary group \[N in 3D, N/m in 2D\].
     FluidForce(String),
-    /// Velocity [m/s] and pressure [Pa] at this point [m] of the undeformed mesh.
+    /// Velocity \[m/s\] and pressure \[Pa\] at this point \[m\] of the undeformed mesh.
     FluidValue([Real; 2]),
 }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fluid::origin;
@@ -10,12 +11,12 @@ use super::newton::Newton;
 use super::numbers::{Count, NonNegative, PoissonRatio, Positive, Real, SpectralRadius};
 
 /// `[structure]`: a solid on a spline patch.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Structure {
-    /// Density [kg/m3].
+    /// Density \[kg/m3\].
     pub density: Positive,
-    /// Force per volume [N/m3], numbers or expressions of `x`, `y`, `t`. Default: none.
+    /// Force per volume \[N/m3\], numbers or expressions of `x`, `y`, `t`. Default: none.
     #[serde(default)]
     pub body_force: VectorFormula,
     /// Sides that do not move. Default: none.
@@ -40,7 +41,7 @@ pub struct Structure {
 }
 
 /// A side of a patch with two parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
     /// Start of the first parameter.
@@ -65,7 +66,7 @@ impl fmt::Display for Side {
 }
 
 /// `[structure.geometry.*]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Geometry {
     /// A rectangle along the axes.
@@ -73,13 +74,13 @@ pub enum Geometry {
 }
 
 /// `[structure.geometry.rectangle]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RectanglePatch {
-    /// Lower left corner [m]. Default: `[0, 0]`.
+    /// Lower left corner \[m\]. Default: `[0, 0]`.
     #[serde(default = "origin")]
     pub origin: [Real; 2],
-    /// Width and height [m].
+    /// Width and height \[m\].
     pub size: [Positive; 2],
     /// Spline elements along each side.
     pub elements: [Count; 2],
@@ -89,7 +90,7 @@ pub struct RectanglePatch {
 }
 
 /// The degree of a spline, 1 to 9.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "i64", into = "usize")]
 pub struct Degree(usize);
 
@@ -125,7 +126,7 @@ impl From<Degree> for usize {
 }
 
 /// `[structure.material.*]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Material {
     /// S = lambda tr(E) I + 2 mu E with the Green-Lagrange strain E: large displacements.
@@ -135,12 +136,12 @@ pub enum Material {
 }
 
 /// Constants of an isotropic elastic material.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Elastic {
-    /// Young's modulus [Pa].
+    /// Young's modulus \[Pa\].
     pub young_modulus: Positive,
-    /// Poisson ratio.
+    /// Poisson ratio; towards 0.5 the material becomes incompressible and these elements lock.
     pub poisson_ratio: PoissonRatio,
     /// `"strain"` (default): thick in z; `"stress"`: thin in z.
     #[serde(default)]
@@ -148,7 +149,7 @@ pub struct Elastic {
 }
 
 /// `plane`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Plane {
     /// Plane strain.
@@ -159,7 +160,7 @@ pub enum Plane {
 }
 
 /// `structure.time_scheme`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum StructureTimeScheme {
     /// Chung and Hulbert 1993.
@@ -183,11 +184,11 @@ impl Default for StructureTimeScheme {
 }
 
 /// `[structure.rayleigh_damping]`: damping matrix `mass * M + stiffness * K`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RayleighDamping {
-    /// Factor of the mass matrix [1/s].
+    /// Factor of the mass matrix \[1/s\].
     pub mass: NonNegative,
-    /// Factor of the stiffness matrix [s].
+    /// Factor of the stiffness matrix \[s\].
     pub stiffness: NonNegative,
 }

@@ -1,0 +1,145 @@
+//! From a file and overrides to a scene that can be built.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use toml::de::{DeTable, DeValue};
+use toml::{Table, Value};
+
+use super::diagnose::SceneError;
+use super::document::{Document, Sources};
+use super::finding::Finding;
+use super::overrides::Override;
+use super::schema::Scene;
+use super::translate::translate;
+use super::validate::validate;
+use super::write;
+
+/// A scene that has passed every check that needs no mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resolved {
+    /// What was asked for, defaults included.
+    pub scene: Scene,
+    /// What the scene is called: its folder, or its file without the ending.
+    pub name: String,
+    /// The file it was read from.
+    pub file: PathBuf,
+}
+
+impl Resolved {
+    /// The scene as TOML with every default and override written out: it runs again as it is.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        write::to_toml(&self.scene)
+    }
+}
+
+/// The file name that stands for its folder.
+pub const SCENE_FILE: &str = "scene.toml";
+
+/// Reads the scene in a file, or in the folder that holds a `scene.toml`, and applies the overrides
+/// `key.path=value` in their order.
+///
+/// # Errors
+///
+/// [`SceneError`] with every place that is wrong and how to mend it.
+pub fn load(path: &Path, overrides: &[String]) -> Result<Resolved, SceneError> {
+    let file = if path.is_dir() { path.join(SCENE_FILE) } else { path.to_owned() };
+    let text = fs::read_to_string(&file).map_err(|error| unreadable(path, &file, &error))?;
+    let scene = parse(&file.display().to_string(), &text, overrides)?;
+    Ok(Resolved { scene, name: name_of(&file), file })
+}
+
+/// Reads the scene in a text; `name` is what messages call it.
+///
+/// # Errors
+///
+/// [`SceneError`] with every place that is wrong and how to mend it.
+pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, SceneError> {
+    let overrides = overrides.iter().map(|given| read_override(given)).collect::<Result<Vec<_>, _>>()?;
+    let sources = Sources::new(name, text, &overrides);
+    check(&sources).map_err(|mut findings| {
+        let alone = Sources::new(name, text, &[]);
+        if !overrides.is_empty() && check(&alone).is_ok() {
+            findings.iter_mut().for_each(Finding::blame_overrides);
+        }
+        SceneError::new(findings, &sources)
+    })
+}
+
+fn check(sources: &Sources) -> Result<Scene, Vec<Finding>> {
+    let document = sources.merge().map_err(|finding| vec![finding])?;
+    let scene = read(&document, sources).map_err(|finding| vec![finding])?;
+    let findings = validate(&scene, &document);
+    if findings.is_empty() { Ok(scene) } else { Err(findings) }
+}
+
+fn read_override(given: &str) -> Result<Override, SceneError> {
+    Override::read(given).map_err(|what| {
+        SceneError::argument(
+            given,
+            &what,
+            "an override is `--set key.path=value`, such as `--set time.steps=3`",
+        )
+    })
+}
+
+fn read(document: &Document<'_>, sources: &Sources) -> Result<Scene, Finding> {
+    let table = document.table().clone();
+    let scene = Scene::deserialize(toml::Deserializer::from(table))
+        .map_err(|error| translate(&error, document, sources))?;
+    match lost(document.table().get_ref(), &write::table_of(&scene), &mut Vec::new()) {
+        Some(finding) => Err(finding),
+        None => Ok(scene),
+    }
+}
+
+/// Something that is written but was not read: serde takes a list for a table, and the first two of three
+/// components, without a word.
+fn lost(written: &DeTable<'_>, read: &Table, path: &mut Vec<String>) -> Option<Finding> {
+    for (key, value) in written {
+        path.push(key.get_ref().to_string());
+        let name = || path.join(".");
+        let finding = match (value.get_ref(), read.get(key.get_ref().as_ref())) {
+            (DeValue::Table(written), Some(Value::Table(read))) => lost(written, read, path),
+            (DeValue::Array(_), Some(Value::Table(_))) => Some(
+                Finding::new(format!("{} should be a table", name()))
+                    .mark(value.span(), "not a table")
+                    .hint(format!("write a table [{}] with one `key = value` a line", name())),
+            ),
+            (DeValue::Array(written), Some(Value::Array(read))) if written.len() != read.len() => Some(
+                Finding::new(format!("{} should be a list of {} entries", name(), read.len()))
+                    .mark(value.span(), format!("a list of {}", written.len()))
+                    .hint(format!("leave {} entries", read.len())),
+            ),
+            _ => None,
+        };
+        if finding.is_some() {
+            return finding;
+        }
+        path.pop();
+    }
+    None
+}
+
+fn name_of(file: &Path) -> String {
+    let stem = file.file_stem();
+    let folder = || file.canonicalize().ok()?.parent()?.file_name().map(ToOwned::to_owned);
+    let name = if file.ends_with(SCENE_FILE) {
+        folder().or(stem.map(ToOwned::to_owned))
+    } else {
+        stem.map(ToOwned::to_owned)
+    };
+    name.map_or_else(|| "scene".to_owned(), |name| name.to_string_lossy().into_owned())
+}
+
+fn unreadable(path: &Path, file: &Path, error: &std::io::Error) -> SceneError {
+    let what = format!("{} cannot be read: {error}", file.display());
+    let hint = if path.is_dir() {
+        format!("a folder stands for the `{SCENE_FILE}` in it; name the file if it is called otherwise")
+    } else {
+        "name a scene file, or a folder with a `scene.toml` in it".to_owned()
+    };
+    SceneError::plain(what, hint)
+}

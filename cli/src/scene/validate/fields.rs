@@ -1,0 +1,113 @@
+//! Which fields are there, how they are coupled, and what is asked of them.
+
+use super::Check;
+use crate::nearest::nearest;
+use crate::scene::finding::Finding;
+use crate::scene::schema::{Fluid, FluidMesh, FluidTimeScheme, Probe, Scene, Structure, StructureTimeScheme};
+
+pub(super) fn check(check: &mut Check<'_>, scene: &Scene) {
+    match (&scene.fluid, &scene.structure) {
+        (None, None) => check.add(
+            Finding::new("the scene has neither a fluid nor a structure")
+                .mark_if(check.key(&["title"]), "nothing to solve in this scene")
+                .hint("add a [fluid], a [structure], or both and a [coupling]"),
+        ),
+        (Some(fluid), Some(structure)) => {
+            needs_coupling(check, scene);
+            steadiness(check, fluid, structure);
+        }
+        _ if scene.coupling.is_some() => {
+            let (there, missing) =
+                if scene.fluid.is_some() { ("fluid", "structure") } else { ("structure", "fluid") };
+            check.add(
+                Finding::new(format!("[coupling] needs a [{missing}] beside the [{there}]"))
+                    .mark_if(check.key(&["coupling"]), format!("couples the {there} with what?"))
+                    .hint(format!("add a [{missing}], or leave out [coupling] to run the {there} alone")),
+            );
+        }
+        _ => {}
+    }
+    for (name, probe) in &scene.output.probes {
+        check_probe(check, scene, name, probe);
+    }
+}
+
+fn needs_coupling(check: &mut Check<'_>, scene: &Scene) {
+    if scene.coupling.is_none() {
+        check.add(
+            Finding::new("the scene has a fluid and a structure but no [coupling]")
+                .mark_if(check.key(&["structure"]), "how does this meet the fluid?")
+                .hint("add a table [coupling] with an acceleration, such as `acceleration = \"iqn_imvls\"`"),
+        );
+    }
+}
+
+fn steadiness(check: &mut Check<'_>, fluid: &Fluid, structure: &Structure) {
+    let steady = fluid.time_scheme == FluidTimeScheme::Steady;
+    let quasi_static = structure.time_scheme == StructureTimeScheme::QuasiStatic;
+    if steady && !quasi_static {
+        check.add(
+            Finding::new("a steady fluid is coupled with a structure that has inertia")
+                .mark_if(check.value(&["fluid", "time_scheme"]), "no time derivative here")
+                .mark_if(check.key(&["structure", "time_scheme"]), "but here")
+                .hint("a steady fluid knows no wall velocity: take `structure.time_scheme = \"quasi_static\"`, or `fluid.time_scheme = \"bdf1\"`"),
+        );
+    }
+}
+
+fn check_probe(check: &mut Check<'_>, scene: &Scene, name: &str, probe: &Probe) {
+    let place = check.value(&["output", "probes", name]);
+    let (field, there) = match probe {
+        Probe::StructureDisplacement(_) => ("structure", scene.structure.is_some()),
+        Probe::FluidForce(_) | Probe::FluidValue(_) => ("fluid", scene.fluid.is_some()),
+    };
+    if !there {
+        check.add(
+            Finding::new(format!("probe `{name}` needs a {field}"))
+                .mark_if(place, format!("the scene has no [{field}]"))
+                .hint(format!("leave the probe out, or add a [{field}]")),
+        );
+        return;
+    }
+    let Some(fluid) = &scene.fluid else { return };
+    match probe {
+        Probe::FluidForce(group) => {
+            known_group(check, fluid, group, &["output", "probes", name, "fluid_force"]);
+        }
+        Probe::FluidValue(point) => {
+            let FluidMesh::Rectangle(mesh) = &fluid.mesh;
+            let outside = (0..2).any(|c| {
+                let low = mesh.origin[c].get();
+                !(low..=low + mesh.size[c].get()).contains(&point[c].get())
+            });
+            if outside {
+                check.add(
+                    Finding::new(format!("probe `{name}` lies outside the fluid's mesh"))
+                        .mark_if(
+                            check.value(&["output", "probes", name, "fluid_value"]),
+                            "not inside the rectangle",
+                        )
+                        .hint("give a point [m] inside the undeformed mesh"),
+                );
+            }
+        }
+        Probe::StructureDisplacement(_) => {}
+    }
+}
+
+/// A boundary group that is named must be in the mesh.
+pub(super) fn known_group(check: &mut Check<'_>, fluid: &Fluid, group: &str, path: &[&str]) {
+    let groups = fluid.mesh.groups();
+    if groups.contains(&group) {
+        return;
+    }
+    let hint = match nearest(group, groups.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("groups of the mesh: {}", groups.join(", ")),
+    };
+    check.add(
+        Finding::new(format!("the mesh has no boundary group `{group}`"))
+            .mark_if(check.value(path), "unknown group")
+            .hint(hint),
+    );
+}

@@ -1,0 +1,122 @@
+//! Whether the fluid's boundary is complete and its pressure determined.
+
+use super::Check;
+use super::fields::known_group;
+use crate::nearest::nearest;
+use crate::scene::finding::Finding;
+use crate::scene::schema::{Condition, Fluid, FluidMesh};
+
+/// Cells of a generated mesh; more would not fit any machine the program is written for.
+const MOST_CELLS: f64 = 1e8;
+
+pub(super) fn check(check: &mut Check<'_>, fluid: &Fluid, coupled: bool) {
+    size(check, fluid);
+    groups(check, fluid);
+    slides(check, fluid);
+    interface(check, fluid, coupled);
+    pressure(check, fluid, coupled);
+}
+
+fn size(check: &mut Check<'_>, fluid: &Fluid) {
+    let FluidMesh::Rectangle(mesh) = &fluid.mesh;
+    let cells = 4.0 * mesh.divisions[0].get() as f64 * mesh.divisions[1].get() as f64;
+    if cells > MOST_CELLS {
+        check.add(
+            Finding::new(format!("the fluid's mesh would have about {cells:.0e} cells"))
+                .mark_if(check.value(&["fluid", "mesh", "rectangle", "divisions"]), "too fine")
+                .hint(format!("at most {MOST_CELLS:.0e} cells can be asked for")),
+        );
+    }
+}
+
+/// Every group has one condition, every condition has its group.
+fn groups(check: &mut Check<'_>, fluid: &Fluid) {
+    let groups = fluid.mesh.groups();
+    let open: Vec<&str> =
+        groups.iter().copied().filter(|group| !fluid.boundary.contains_key(*group)).collect();
+    let mut misspelled = Vec::new();
+    for group in fluid.boundary.keys().filter(|group| !groups.contains(&group.as_str())) {
+        let near = nearest(group, open.iter().copied());
+        misspelled.extend(near);
+        let hint = match near {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("groups of the mesh: {}", groups.join(", ")),
+        };
+        check.add(
+            Finding::new(format!("the mesh has no boundary group `{group}`"))
+                .mark_if(check.key(&["fluid", "boundary", group]), "unknown group")
+                .hint(hint),
+        );
+    }
+    for group in open.iter().filter(|group| !misspelled.contains(group)) {
+        check.add(
+            Finding::new(format!("boundary group `{group}` has no condition"))
+                .mark_if(check.key(&["fluid", "boundary"]), format!("nothing about `{group}` here"))
+                .hint(format!("without one the equations are not closed: add `{group} = \"no_slip\"` or another condition")),
+        );
+    }
+}
+
+fn slides(check: &mut Check<'_>, fluid: &Fluid) {
+    for group in &fluid.mesh_motion.slide {
+        known_group(check, fluid, group, &["fluid", "mesh_motion", "slide"]);
+        if matches!(fluid.boundary.get(group), Some(Condition::Interface | Condition::WallMotion(_))) {
+            check.add(
+                Finding::new(format!("mesh nodes cannot slide along `{group}`, which moves itself"))
+                    .mark_if(check.value(&["fluid", "mesh_motion", "slide"]), "slides here")
+                    .mark_if(check.value(&["fluid", "boundary", group]), "prescribes the motion")
+                    .hint(format!("take `{group}` out of `slide`")),
+            );
+        }
+    }
+}
+
+fn interface(check: &mut Check<'_>, fluid: &Fluid, coupled: bool) {
+    let marked = fluid.boundary.iter().find(|(_, condition)| **condition == Condition::Interface);
+    match marked {
+        None if coupled => check.add(
+            Finding::new("no boundary group of the fluid is the interface")
+                .mark_if(check.key(&["fluid", "boundary"]), "none of these is \"interface\"")
+                .hint("give the condition \"interface\" to the group that touches the structure"),
+        ),
+        Some((group, _)) if !coupled => check.add(
+            Finding::new(format!("`{group}` is an interface, but the scene has no structure"))
+                .mark_if(check.value(&["fluid", "boundary", group]), "with what?")
+                .hint("add a [structure] and a [coupling], or give the group another condition"),
+        ),
+        _ => {}
+    }
+}
+
+/// An incompressible fluid needs one place where its pressure is known.
+fn pressure(check: &mut Check<'_>, fluid: &Fluid, coupled: bool) {
+    let opening = fluid.boundary.iter().find(|(_, condition)| is_open(condition)).map(|(group, _)| group);
+    let moves =
+        coupled || fluid.boundary.values().any(|condition| matches!(condition, Condition::WallMotion(_)));
+    match (opening, &fluid.pressure_pin) {
+        (Some(group), Some(_)) => check.add(
+            Finding::new("the pressure is fixed twice")
+                .mark_if(check.key(&["fluid", "pressure_pin"]), "once here")
+                .mark_if(check.key(&["fluid", "boundary", group]), "once here")
+                .hint("leave out `pressure_pin`; it is for a fluid without any outflow"),
+        ),
+        (None, _) if moves => check.add(
+            Finding::new("the fluid is enclosed, and its boundary moves")
+                .mark_if(check.key(&["fluid", "boundary"]), "every group prescribes the velocity")
+                .hint(
+                    "an incompressible fluid cannot give way, and its pressure has no level: \
+                     make one group \"stress_free\" or \"do_nothing\"",
+                ),
+        ),
+        (None, None) => check.add(
+            Finding::new("the fluid is enclosed: its pressure is known only up to a constant")
+                .mark_if(check.key(&["fluid", "boundary"]), "every group prescribes the velocity")
+                .hint("set `fluid.pressure_pin = { point = [0, 0], value = 0 }`, or make one group \"stress_free\""),
+        ),
+        _ => {}
+    }
+}
+
+fn is_open(condition: &Condition) -> bool {
+    matches!(condition, Condition::Traction(_) | Condition::DoNothing(_) | Condition::StressFree(_))
+}

@@ -1,0 +1,83 @@
+//! Whether the structure is held and touches what it should.
+
+use super::Check;
+use crate::scene::finding::Finding;
+use crate::scene::schema::{Geometry, Side, Structure, StructureTimeScheme};
+
+/// Control points of a patch; more would not fit any machine the program is written for.
+const MOST_POINTS: f64 = 1e8;
+
+pub(super) fn check(check: &mut Check<'_>, structure: &Structure, coupled: bool) {
+    size(check, structure);
+    twice(check, "clamped", &structure.clamped);
+    twice(check, "wetted", &structure.wetted);
+    if let Some(side) = structure.wetted.iter().find(|side| structure.clamped.contains(side)) {
+        check.add(
+            Finding::new(format!("side `{side}` is both clamped and wetted"))
+                .mark_if(check.value(&["structure", "clamped"]), "does not move")
+                .mark_if(check.value(&["structure", "wetted"]), "moves with the fluid")
+                .hint("name it in one of the two"),
+        );
+    }
+    match structure.wetted.first() {
+        None if coupled => check.add(
+            Finding::new("no side of the structure touches the fluid")
+                .mark_if(check.key(&["structure"]), "`wetted` is missing or empty")
+                .hint("name the sides that touch the fluid: `wetted = [\"top\"]`"),
+        ),
+        Some(side) if !coupled => check.add(
+            Finding::new(format!("side `{side}` is wetted, but the scene has no fluid"))
+                .mark_if(check.value(&["structure", "wetted"]), "by what?")
+                .hint("add a [fluid] and a [coupling], or leave out `wetted`"),
+        ),
+        _ => {}
+    }
+    statics(check, structure);
+}
+
+fn size(check: &mut Check<'_>, structure: &Structure) {
+    let Geometry::Rectangle(patch) = &structure.geometry;
+    let along = |c: usize| (patch.elements[c].get() + patch.degree[c].get()) as f64;
+    let points = along(0) * along(1);
+    if points > MOST_POINTS {
+        check.add(
+            Finding::new(format!("the structure would have about {points:.0e} control points"))
+                .mark_if(check.value(&["structure", "geometry", "rectangle", "elements"]), "too fine")
+                .hint(format!("at most {MOST_POINTS:.0e} can be asked for")),
+        );
+    }
+}
+
+fn twice(check: &mut Check<'_>, key: &str, sides: &[Side]) {
+    if let Some(side) =
+        sides.iter().enumerate().find_map(|(i, side)| sides[..i].contains(side).then_some(side))
+    {
+        check.add(
+            Finding::new(format!("structure.{key} names `{side}` twice"))
+                .mark_if(check.value(&["structure", key]), "once is enough")
+                .hint(format!("name `{side}` once")),
+        );
+    }
+}
+
+fn statics(check: &mut Check<'_>, structure: &Structure) {
+    if structure.time_scheme != StructureTimeScheme::QuasiStatic {
+        return;
+    }
+    let place = check.value(&["structure", "time_scheme"]);
+    if structure.clamped.is_empty() {
+        check.add(
+            Finding::new("a quasi-static structure is held nowhere")
+                .mark_if(place.clone(), "no inertia either")
+                .hint("without inertia and supports it has no place of its own: name a side in `clamped`"),
+        );
+    }
+    if structure.rayleigh_damping.is_some() {
+        check.add(
+            Finding::new("a quasi-static structure has no velocity to damp")
+                .mark_if(check.key(&["structure", "rayleigh_damping"]), "damps nothing")
+                .mark_if(place, "because of this")
+                .hint("leave out `rayleigh_damping`"),
+        );
+    }
+}

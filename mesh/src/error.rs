@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::cell::CellKind;
+
 /// A point in space as messages show it: `(0.25, 0.5) m`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Place(pub Vec<f64>);
@@ -17,9 +19,20 @@ impl fmt::Display for Place {
         f.write_str("(")?;
         for (i, x) in self.0.iter().enumerate() {
             let separator = if i == 0 { "" } else { ", " };
-            write!(f, "{separator}{x:.6}")?;
+            f.write_str(separator)?;
+            write_rounded(f, *x)?;
         }
         f.write_str(") m")
+    }
+}
+
+/// Six significant digits, without trailing zeros; powers of ten where decimals would be long.
+fn write_rounded(f: &mut fmt::Formatter<'_>, x: f64) -> fmt::Result {
+    let rounded: f64 = format!("{x:.5e}").parse().expect("a printed number is a number");
+    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) {
+        write!(f, "{rounded}")
+    } else {
+        write!(f, "{rounded:e}")
     }
 }
 
@@ -30,10 +43,10 @@ pub enum MeshError {
     #[error("the mesh has no cells\nhint: check that the mesh file holds triangles (2D) or tetrahedra (3D)")]
     Empty,
     /// Cells that are not the simplices of this dimension.
-    #[error("cells with {found} nodes in {dimension} dimensions\nhint: only simplices with {} nodes are solved on", dimension + 1)]
+    #[error("cells of kind {found:?} do not make a mesh in {dimension} dimensions\nhint: only {:?} can be solved on there", CellKind::simplex(*dimension))]
     WrongKind {
-        /// Nodes of a cell as given.
-        found: usize,
+        /// The kind as given.
+        found: CellKind,
         /// Dimension of the mesh.
         dimension: usize,
     },
@@ -47,13 +60,11 @@ pub enum MeshError {
     },
     /// A cell or facet that names a node beyond the last one.
     #[error(
-        "{entity} {index} names node {node}, but there are only {nodes} nodes (counted from 0)\nhint: are the nodes counted from 1?"
+        "{entity} names node {node}, but there are only {nodes} nodes (counted from 0)\nhint: are the nodes counted from 1?"
     )]
     NodeOutOfRange {
-        /// `"cell"` or `"facet of group ..."`.
+        /// Which cell, or which facet of which group.
         entity: String,
-        /// Number of the cell, or of the facet within its group.
-        index: usize,
         /// The node that does not exist.
         node: usize,
         /// Number of nodes.
@@ -154,10 +165,18 @@ mod tests {
     use super::*;
 
     #[test]
+    fn places_are_short_at_any_scale() {
+        let shown = |point| Place::from(point).to_string();
+        assert_eq!(shown([1.0 / 3.0, 0.0]), "(0.333333, 0) m");
+        assert_eq!(shown([-2.5e-7, 12345.678]), "(-2.5e-7, 12345.7) m");
+        assert_eq!(shown([f64::NAN, f64::NEG_INFINITY]), "(NaN, -inf) m");
+    }
+
+    #[test]
     fn message_names_entity_place_and_remedy() {
         let error = MeshError::NotPositive { cell: 7, centroid: Place::from([0.25, 0.5]), measure: -1.25e-3 };
         insta::assert_snapshot!(error, @r"
-        cell 7 at (0.250000, 0.500000) m has measure -1.250e-3 m^2: it is inverted
+        cell 7 at (0.25, 0.5) m has measure -1.250e-3 m^2: it is inverted
         hint: swap two of its nodes (triangles run counter-clockwise)
         ");
     }

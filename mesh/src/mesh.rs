@@ -134,7 +134,7 @@ fn check_kind<const D: usize>(cells: &Cells) -> Result<(), MeshError> {
         return Err(MeshError::Empty);
     }
     if cells.kind != CellKind::simplex(D) {
-        return Err(MeshError::WrongKind { found: cells.kind.node_count(), dimension: D });
+        return Err(MeshError::WrongKind { found: cells.kind, dimension: D });
     }
     Ok(())
 }
@@ -150,7 +150,7 @@ fn check_nodes<const D: usize>(points: &[[f64; D]], cells: &Cells) -> Result<(),
     check_finite(points)?;
     let mut used = vec![false; points.len()];
     for (index, nodes) in cells.iter().enumerate() {
-        check_range("cell", index, nodes, points.len())?;
+        check_range(nodes, points.len(), || format!("cell {index}"))?;
         for &node in nodes {
             used[node] = true;
         }
@@ -161,9 +161,9 @@ fn check_nodes<const D: usize>(points: &[[f64; D]], cells: &Cells) -> Result<(),
     }
 }
 
-fn check_range(entity: &str, index: usize, nodes: &[usize], count: usize) -> Result<(), MeshError> {
+fn check_range(nodes: &[usize], count: usize, entity: impl Fn() -> String) -> Result<(), MeshError> {
     match nodes.iter().find(|&&node| node >= count) {
-        Some(&node) => Err(MeshError::NodeOutOfRange { entity: entity.into(), index, node, nodes: count }),
+        Some(&node) => Err(MeshError::NodeOutOfRange { entity: entity(), node, nodes: count }),
         None => Ok(()),
     }
 }
@@ -204,7 +204,7 @@ fn resolve_groups<const D: usize>(
         }
         let mut group = BoundaryGroup { name, facets: Vec::with_capacity(facets.len()) };
         for (index, nodes) in facets.into_iter().enumerate() {
-            check_range(&format!("facet of group `{}`", group.name), index, &nodes, points.len())?;
+            check_range(&nodes, points.len(), || format!("facet {index} of group `{}`", group.name))?;
             let Some(&facet) = boundary.get(&key(nodes)) else {
                 return Err(not_on_boundary(points, group.name, index, nodes));
             };

@@ -13,6 +13,7 @@
 //! cancels. Both matrices are symmetric positive definite.
 
 mod check;
+mod coupling;
 mod error;
 mod kernel;
 mod prescribed;

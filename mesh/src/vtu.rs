@@ -44,11 +44,17 @@ pub struct Field<'a> {
 /// Why an output file could not be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum VtuError {
-    /// The file system refused.
-    #[error("cannot {action} `{}`: {source}\nhint: check that the folder exists and may be written to, and that the disk is not full", path.display())]
-    Io {
-        /// `"write"` or `"read"`.
-        action: &'static str,
+    /// The file system takes no file there.
+    #[error("cannot write `{}`: {source}\nhint: check that the folder exists, may be written to, and is not full", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The file system gives no file from there.
+    #[error("cannot read `{}`: {source}\nhint: was it moved, or written by another run?", path.display())]
+    Read {
         /// The file.
         path: PathBuf,
         /// Why.
@@ -128,7 +134,7 @@ pub fn write_vtu<const D: usize>(
 /// Writes an unstructured grid to the file `path`, compressed; the file appears when it is whole.
 ///
 /// # Errors
-/// [`VtuError::Io`] names the file.
+/// [`VtuError::Write`] names the file.
 ///
 /// # Panics
 /// As [`write_vtu`].

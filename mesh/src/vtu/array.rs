@@ -1,6 +1,6 @@
 //! One `DataArray` element: numbers as text or as compressed bytes.
 
-use std::fmt::{Display, Write as _};
+use std::fmt::{Debug, Write as _};
 use std::io::{self, Write};
 
 use base64::Engine;
@@ -78,12 +78,12 @@ impl Values {
 }
 
 /// One line a tuple; Rust prints the shortest decimal number that reads back as the same bits.
-fn lines<T: Display>(values: &[T], components: usize) -> String {
+fn lines<T: Debug>(values: &[T], components: usize) -> String {
     let mut text = String::from("\n");
     for tuple in values.chunks(components) {
         for (c, value) in tuple.iter().enumerate() {
             let separator = if c == 0 { "" } else { " " };
-            write!(text, "{separator}{value}").expect("writing to a string does not fail");
+            write!(text, "{separator}{value:?}").expect("writing to a string does not fail");
         }
         text.push('\n');
     }

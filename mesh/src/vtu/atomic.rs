@@ -25,6 +25,39 @@ pub(super) fn write(
     written.map_err(|source| {
         // What counts is the first error; the part may not even exist.
         let _ = fs::remove_file(part);
-        VtuError::Io { action: "write", path: path.to_path_buf(), source }
+        VtuError::Write { path: path.to_path_buf(), source }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_write_that_fails_half_way_leaves_the_old_file_alone() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("fluid.pvd");
+        write(&path, |file| file.write_all(b"old")).expect("writable");
+        let failed = write(&path, |file| {
+            file.write_all(b"half of the ne")?;
+            Err(io::Error::other("the disk is full"))
+        });
+        assert!(matches!(failed, Err(VtuError::Write { .. })));
+        assert_eq!(fs::read(&path).expect("readable"), b"old");
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1, "the part is gone");
+    }
+
+    #[test]
+    fn the_file_does_not_appear_before_it_is_whole() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("fluid.vtu");
+        write(&path, |file| {
+            file.write_all(b"first half")?;
+            file.flush()?;
+            assert!(!path.exists());
+            file.write_all(b", second half")
+        })
+        .expect("writable");
+        assert_eq!(fs::read(&path).expect("readable"), b"first half, second half");
+    }
 }

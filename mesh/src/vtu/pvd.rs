@@ -14,7 +14,7 @@ use super::{VtuError, atomic, document};
 /// One file of a collection.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PvdEntry {
-    /// Its time [s].
+    /// Its time `[s]`.
     pub time: f64,
     /// Its path, relative to the collection.
     pub file: String,
@@ -47,7 +47,7 @@ impl PvdCollection {
     /// An empty collection, written to `path` in place of what is there.
     ///
     /// # Errors
-    /// [`VtuError::Io`].
+    /// [`VtuError::Write`].
     pub fn create(path: &Path) -> Result<Self, VtuError> {
         let collection = Self { path: path.to_path_buf(), entries: Vec::new() };
         collection.write()?;
@@ -57,13 +57,10 @@ impl PvdCollection {
     /// The collection that an earlier run wrote to `path`.
     ///
     /// # Errors
-    /// [`VtuError::Io`], or [`VtuError::NotACollection`] when the file is something else.
+    /// [`VtuError::Read`], or [`VtuError::NotACollection`] when the file is something else.
     pub fn open(path: &Path) -> Result<Self, VtuError> {
-        let text = fs::read_to_string(path).map_err(|source| VtuError::Io {
-            action: "read",
-            path: path.to_path_buf(),
-            source,
-        })?;
+        let text =
+            fs::read_to_string(path).map_err(|source| VtuError::Read { path: path.to_path_buf(), source })?;
         let entries =
             parse(&text).map_err(|reason| VtuError::NotACollection { path: path.to_path_buf(), reason })?;
         Ok(Self { path: path.to_path_buf(), entries })
@@ -78,7 +75,7 @@ impl PvdCollection {
     /// Adds a file, given relative to the collection, at `time` `[s]`.
     ///
     /// # Errors
-    /// [`VtuError::Io`].
+    /// [`VtuError::Write`].
     pub fn push(&mut self, time: f64, file: &str) -> Result<(), VtuError> {
         self.entries.push(PvdEntry { time, file: file.into() });
         self.write()
@@ -87,7 +84,7 @@ impl PvdCollection {
     /// Drops every entry later than `time` `[s]`.
     ///
     /// # Errors
-    /// [`VtuError::Io`].
+    /// [`VtuError::Write`].
     pub fn truncate_after(&mut self, time: f64) -> Result<(), VtuError> {
         self.entries.retain(|entry| entry.time <= time);
         self.write()

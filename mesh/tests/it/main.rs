@@ -1,0 +1,11 @@
+//! What the mesh crate promises, tested from outside.
+
+mod allocation;
+mod boxes;
+mod generated;
+mod motion;
+mod motion_errors;
+mod quality;
+mod validation;
+mod vtu;
+mod vtu_reader;

@@ -96,7 +96,7 @@ impl<const D: usize> Expression<D> {
         Ok(Self { text: text.to_owned(), operations })
     }
 
-    /// The value at a position [m] and a time [s].
+    /// The value at a position \[m\] and a time \[s\].
     #[must_use]
     pub fn value(&self, position: &[f64; D], time: f64) -> f64 {
         let mut stack = [0.0; STACK];

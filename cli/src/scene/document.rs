@@ -67,8 +67,8 @@ impl Sources {
         for source in overrides {
             let line = DeTable::parse(&source.padded).map_err(|error| Finding::syntax(&error, self))?;
             insert(document.root.get_mut(), line.into_inner(), source.names, &mut Vec::new())?;
+            document.spell_out_choices();
         }
-        document.spell_out_choices();
         Ok(document)
     }
 }

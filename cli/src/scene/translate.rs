@@ -126,7 +126,7 @@ impl Context<'_> {
         }
         Finding::new(format!("{path}: {message}"))
             .mark(self.place, "out of range")
-            .hint(reference::describe(&self.path).map_or_else(String::new, |text| format!("{path}: {text}")))
+            .hint(reference::describe(&self.path).unwrap_or_default())
     }
 
     /// The part of a quoted expression that is to blame, where the quoted text is the expression itself.
@@ -149,7 +149,7 @@ pub(super) fn table(path: &[String]) -> String {
 /// A hint, and below it what the key means.
 fn explained(hint: String, path: &[String]) -> String {
     match reference::describe(path) {
-        Some(text) => format!("{hint}\n{}: {text}", path.join(".")),
+        Some(text) => format!("{hint}\n{text}"),
         None => hint,
     }
 }

@@ -43,10 +43,10 @@ fn write_table(text: &mut String, table: &Table, path: &mut Vec<String>) {
     }
 }
 
-/// A table stands under its own heading unless it is a choice with one short value: `{ relative = 1e-10 }`.
+/// A table stands under its own heading unless it is a chain down to one value: `{ relative = 1e-10 }`.
 fn stands_alone(value: &Value) -> bool {
     match value {
-        Value::Table(table) => table.len() != 1 || table.values().any(Value::is_table),
+        Value::Table(table) => table.len() != 1 || table.values().any(stands_alone),
         _ => false,
     }
 }

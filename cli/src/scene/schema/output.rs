@@ -40,6 +40,6 @@ pub enum Probe {
     StructureDisplacement([Parameter; 2]),
     /// Force of the fluid on this boundary group \[N in 3D, N/m in 2D\].
     FluidForce(String),
-    /// Velocity \[m/s\] and pressure \[Pa\] at this point \[m\] of the undeformed mesh.
+    /// Velocity \[m/s\] and pressure \[Pa\] at the mesh node nearest to this point \[m\], before it moves.
     FluidValue([Real; 2]),
 }

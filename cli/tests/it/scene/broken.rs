@@ -1,0 +1,29 @@
+//! Broken scenes and the messages they give.
+
+mod fit;
+mod keys;
+mod overrides;
+mod values;
+
+use miette::{GraphicalReportHandler, GraphicalTheme};
+use partita::scene::parse;
+
+use super::SOUND;
+
+/// The message for a scene, as a terminal of 100 columns shows it.
+fn message(text: &str, overrides: &[&str]) -> String {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    let error = parse("scene.toml", text, &overrides).expect_err("the scene is broken");
+    let mut message = String::new();
+    GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor())
+        .with_width(100)
+        .render_report(&mut message, &error)
+        .expect("a string takes everything");
+    message
+}
+
+/// The message for the sound scene with `old` replaced by `new`.
+fn broken(old: &str, new: &str) -> String {
+    assert!(SOUND.contains(old), "{old} is not in the sound scene");
+    message(&SOUND.replacen(old, new, 1), &[])
+}

@@ -10,17 +10,19 @@
 //! * [`predict`]: where a step starts.
 //! * [`dirichlet_neumann`]: one time step, the one loop of this crate. [`march`]: step after step.
 //! * [`record`] and [`observe`]: what a run leaves behind.
-//! * `conformance`: checks for everybody who implements a trait of this crate.
-//! * `models`: an elastic tube and a linear tank, small enough to debug a method in milliseconds.
+//! * [`conformance`]: checks for everybody who implements a trait of this crate.
+//! * [`models`]: an elastic tube and a linear tank, small enough to debug a method in milliseconds.
 //!
 //! The interface unknown is `x`, the output of the second participant (displacement). One coupling
 //! iteration is one call of both participants; its residual is `r = x_tilde - x`.
 
 pub mod accelerate;
+pub mod conformance;
 pub mod criterion;
 pub mod dirichlet_neumann;
 pub mod error;
 pub mod march;
+pub mod models;
 pub mod observe;
 pub mod participant;
 pub mod policy;
@@ -30,7 +32,7 @@ pub mod record;
 pub mod transfer;
 mod vector;
 
-pub use accelerate::{Acceleration, Accelerator, AcceleratorState};
+pub use accelerate::{Acceleration, Accelerator, AcceleratorState, Filter, Proposal, QuasiNewton};
 pub use criterion::{Bound, Criterion};
 pub use error::{ParticipantError, SetupError, StepError, StepFailure};
 pub use march::{AtLimit, Choices, CouplingSettings, March, MarchState};

@@ -171,7 +171,7 @@ mod tests {
 
     /// Fixed numbers without structure.
     fn columns(rows: usize, count: usize) -> Vec<Vec<f64>> {
-        let entry = |i: usize, j: usize| (1.3 * i as f64 + 2.7 * (j * j) as f64 + 0.4).sin();
+        let entry = |i: usize, j: usize| (0.7 * (i * i) as f64 + 1.3 * (i * j) as f64 + 0.4).sin();
         (0..count).map(|j| (0..rows).map(|i| entry(i, j)).collect()).collect()
     }
 

@@ -1,0 +1,5 @@
+//! Integration tests: the parts of the crate at work together.
+
+mod conformance;
+mod models;
+mod support;

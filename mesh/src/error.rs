@@ -55,7 +55,7 @@ pub enum MeshError {
     NotFinite {
         /// The node.
         node: usize,
-        /// Its coordinates [m].
+        /// Its coordinates `[m]`.
         coordinates: Vec<f64>,
     },
     /// A cell or facet that names a node beyond the last one.
@@ -143,9 +143,9 @@ pub enum MeshError {
         "a box of size {size:?} m in {divisions:?} divisions from {origin:?} m cannot be meshed\nhint: give finite coordinates, positive sizes and at least one division a direction"
     )]
     InvalidBox {
-        /// Lower corner [m].
+        /// Lower corner `[m]`.
         origin: Vec<f64>,
-        /// Edge lengths [m].
+        /// Edge lengths `[m]`.
         size: Vec<f64>,
         /// Divisions a direction.
         divisions: Vec<usize>,

@@ -16,7 +16,7 @@ pub struct Facet<const D: usize> {
 }
 
 impl<const D: usize> Facet<D> {
-    /// Outward normal times length (2D, [m]) or area (3D, [m^2]).
+    /// Outward normal times length (2D, `[m]`) or area (3D, `[m^2]`).
     ///
     /// 2D: `(y_1 - y_0, x_0 - x_1)`; 3D: `(x_1 - x_0) x (x_2 - x_0) / 2`. The area vectors of a closed
     /// surface sum to zero.
@@ -46,7 +46,7 @@ impl<const D: usize> Facet<D> {
         vector
     }
 
-    /// Length (2D, [m]) or area (3D, [m^2]).
+    /// Length (2D, `[m]`) or area (3D, `[m^2]`).
     #[must_use]
     pub fn area(&self, points: &[[f64; D]]) -> f64 {
         norm(&self.area_vector(points))
@@ -60,7 +60,7 @@ impl<const D: usize> Facet<D> {
         vector.map(|v| v / area)
     }
 
-    /// Mean of the facet's nodes [m].
+    /// Mean of the facet's nodes `[m]`.
     #[must_use]
     pub fn centroid(&self, points: &[[f64; D]]) -> [f64; D] {
         simplex::centroid(&self.nodes.map(|node| points[node]))

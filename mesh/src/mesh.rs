@@ -76,7 +76,7 @@ impl<const D: usize> Mesh<D> {
         Ok(Self { points, ..self.clone() })
     }
 
-    /// Coordinates of the nodes [m].
+    /// Coordinates of the nodes `[m]`.
     #[must_use]
     pub fn points(&self) -> &[[f64; D]] {
         &self.points

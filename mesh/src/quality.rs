@@ -3,7 +3,7 @@
 use crate::cell::Cells;
 use crate::simplex;
 
-/// Signed areas or volumes of all cells, `det A / D!`, [m^D].
+/// Signed areas or volumes of all cells, `det A / D!`, `[m^D]`.
 ///
 /// # Panics
 /// If the cells are not simplices with `D + 1` nodes.
@@ -43,9 +43,9 @@ fn regular_measure(dimension: usize) -> f64 {
 /// Sizes and shapes of all cells in a few numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
-    /// Area or volume of the mesh [m^D].
+    /// Area or volume of the mesh `[m^D]`.
     pub total_measure: f64,
-    /// Smallest signed measure of a cell [m^D].
+    /// Smallest signed measure of a cell `[m^D]`.
     pub smallest_measure: f64,
     /// The cell of the smallest measure.
     pub smallest_cell: usize,

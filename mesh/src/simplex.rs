@@ -63,7 +63,7 @@ pub fn centroid<const D: usize>(vertices: &[[f64; D]]) -> [f64; D] {
     centroid
 }
 
-/// Sum of the squared lengths of all `D (D + 1) / 2` edges [m^2].
+/// Sum of the squared lengths of all `D (D + 1) / 2` edges `[m^2]`.
 #[must_use]
 pub fn squared_edges<const D: usize>(vertices: &[[f64; D]]) -> f64 {
     let mut sum = 0.0;

@@ -12,9 +12,9 @@ use crate::topology::boundary_facets;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CuboidMesh {
-    /// Corner with the smallest coordinates [m].
+    /// Corner with the smallest coordinates `[m]`.
     pub origin: [f64; 3],
-    /// Edge lengths [m].
+    /// Edge lengths `[m]`.
     pub size: [f64; 3],
     /// Cuboids in x, y and z; each becomes six tetrahedra.
     pub divisions: [usize; 3],

@@ -26,9 +26,9 @@ pub enum Diagonal {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RectangleMesh {
-    /// Lower left corner [m].
+    /// Lower left corner `[m]`.
     pub origin: [f64; 2],
-    /// Width and height [m].
+    /// Width and height `[m]`.
     pub size: [f64; 2],
     /// Squares in x and y.
     pub divisions: [usize; 2],

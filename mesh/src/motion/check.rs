@@ -11,7 +11,7 @@ use crate::simplex;
 /// Size and shape of the cells of a displaced mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MotionQuality {
-    /// Smallest area or volume of a cell [m^D], positive.
+    /// Smallest area or volume of a cell `[m^D]`, positive.
     pub smallest_measure: f64,
     /// Smallest ratio of a cell's measure to the one it has in the reference mesh.
     pub smallest_ratio: f64,

@@ -17,7 +17,7 @@ pub enum MotionError {
         cell: usize,
         /// Its centroid in the displaced mesh.
         centroid: Place,
-        /// Its signed measure [m^D].
+        /// Its signed measure `[m^D]`.
         measure: f64,
     },
     /// A prescribed displacement that is infinite or not a number.

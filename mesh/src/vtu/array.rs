@@ -38,15 +38,13 @@ impl<'a> DataArray<'a> {
             Encoding::Ascii => ("ascii", self.values.text(self.components)),
         };
         let components = self.components.to_string();
-        let attributes = [
-            ("type", self.values.type_name()),
-            ("Name", self.name),
-            ("NumberOfComponents", &components),
-            ("format", format),
-        ];
-        xml.create_element("DataArray")
-            .with_attributes(attributes)
-            .write_text_content(BytesText::from_escaped(content))?;
+        let mut element = xml
+            .create_element("DataArray")
+            .with_attributes([("type", self.values.type_name()), ("Name", self.name)]);
+        if self.components > 1 {
+            element = element.with_attribute(("NumberOfComponents", components.as_str()));
+        }
+        element.with_attribute(("format", format)).write_text_content(BytesText::from_escaped(content))?;
         Ok(())
     }
 }

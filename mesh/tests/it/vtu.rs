@@ -43,6 +43,7 @@ fn check<const D: usize>(mesh: &Mesh<D>, encoding: Encoding) {
     assert_eq!(file.arrays["velocity [m/s]"].section, "PointData");
     assert_eq!(file.arrays["velocity [m/s]"].components, 3);
     assert_eq!(file.arrays["a < b & \"c\""].section, "CellData");
+    assert_eq!(file.arrays["a < b & \"c\""].components, 1);
     assert_eq!(file.arrays["Points"].section, "Points");
     assert_eq!(file.arrays["types"].section, "Cells");
 }
@@ -104,16 +105,16 @@ fn text_form_is_readable() {
     </DataArray>
           </Points>
           <Cells>
-            <DataArray type="UInt64" Name="connectivity" NumberOfComponents="1" format="ascii">
+            <DataArray type="UInt64" Name="connectivity" format="ascii">
     0
     1
     2
     3
     </DataArray>
-            <DataArray type="UInt64" Name="offsets" NumberOfComponents="1" format="ascii">
+            <DataArray type="UInt64" Name="offsets" format="ascii">
     4
     </DataArray>
-            <DataArray type="UInt8" Name="types" NumberOfComponents="1" format="ascii">
+            <DataArray type="UInt8" Name="types" format="ascii">
     9
     </DataArray>
           </Cells>

@@ -67,7 +67,7 @@ fn array(section: &str, attributes: &BTreeMap<String, String>, content: &str) ->
         "binary" => decode(content.trim(), &attributes["type"]),
         other => panic!("unknown format {other}"),
     };
-    let components = attributes["NumberOfComponents"].parse().expect("a count");
+    let components = attributes.get("NumberOfComponents").map_or(1, |count| count.parse().expect("a count"));
     Array { section: section.into(), components, format, values }
 }
 

@@ -29,8 +29,8 @@ pub enum Method {
 /// A factorization of matrices of one pattern: analysed once, refactored and solved in place many times.
 ///
 /// Values are always those of the **full** pattern, for the symmetric methods too (one triangle of them is
-/// read). Results are the same bit for bit in every run: one thread, no randomness, and a refactorization
-/// equals a fresh factorization of the same values.
+/// read). Results are the same bit for bit in every run on one machine: one thread, no randomness, and a
+/// refactorization equals a fresh factorization of the same values.
 ///
 /// Nothing allocates after [`Factor::new`], with one exception: the numeric phase of faer's supernodal LU
 /// allocates its fronts in every [`refactor`](Self::refactor). (The matrix kernels also keep one packing buffer
@@ -102,8 +102,9 @@ impl Factor {
 
     /// Factors the matrix with these `values` over the full pattern.
     ///
-    /// Each factor proves itself on a system with a known solution before it is used: one product and one
-    /// solve, so that a singular matrix becomes an error and never a large wrong answer.
+    /// Each factor proves itself on a system with a known solution before it is used, so that a singular
+    /// matrix becomes an error and never a large wrong answer. This costs a product and a solve: a twentieth of
+    /// the call for LU, up to a quarter for the symmetric methods.
     ///
     /// # Errors
     ///

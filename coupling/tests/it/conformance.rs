@@ -1,11 +1,13 @@
 //! The shipped checks on the models, and on things that break their contracts.
 
-use partita_coupling::conformance::{ParticipantCheck, check_accelerator, check_participant};
+use partita_coupling::conformance::{ParticipantCheck, check_accelerator, check_participant, check_policy};
 use partita_coupling::models::tank::Tank;
 use partita_coupling::models::tube::Tube;
-use partita_coupling::Step;
+use partita_coupling::{
+    Accelerator, AcceleratorState, Effort, NewtonLimit, ParticipantError, Policy, Proposal, SetupError, Step,
+};
 
-use crate::support::all_accelerations;
+use crate::support::{Spoiled, all_accelerations, fixed, imvls};
 
 const STEP: Step = Step { index: 1, time: 1e-3, dt: 1e-3 };
 
@@ -14,7 +16,11 @@ fn wave(len: usize, amplitude: f64) -> Vec<f64> {
 }
 
 fn check(len: usize, amplitude: f64) -> ParticipantCheck {
-    ParticipantCheck { step: STEP, inputs: [wave(len, amplitude), wave(len, -0.5 * amplitude)], tolerance: 1e-8 }
+    ParticipantCheck {
+        step: STEP,
+        inputs: [wave(len, amplitude), wave(len, -0.5 * amplitude)],
+        tolerance: 1e-8,
+    }
 }
 
 #[test]
@@ -33,4 +39,110 @@ fn accelerators_are_conforming() {
             check_accelerator(name, size, &|| acceleration.build(size).unwrap()).unwrap();
         }
     }
+}
+
+#[test]
+fn policies_are_conforming() {
+    for limit in [NewtonLimit::AtMost(1), NewtonLimit::ToConvergence] {
+        check_policy(&mut fixed(limit)).unwrap();
+    }
+    check_policy(&mut Policy::UntilCoupled { at_most: 3, tolerance: 1e-5 }).unwrap();
+    check_policy(&mut Policy::ConvergedInterfaceData { tolerance: 1e-4 }).unwrap();
+    assert!(check_policy(&mut fixed(NewtonLimit::AtMost(0))).is_err());
+}
+
+/// The wall, with every call spoiled by `fault`, must not pass.
+fn assert_caught(
+    expected: &str,
+    fault: impl FnMut(usize, &mut [f64], &mut Effort) -> Result<(), ParticipantError> + 'static,
+) {
+    let (_, wall) = Tube::default().participants().unwrap();
+    let violation = check_participant(&mut Spoiled::new(wall, fault), &check(40, 1e-2)).unwrap_err();
+    assert!(violation.to_string().contains(expected), "{violation}");
+}
+
+#[test]
+fn inner_residual_that_is_not_evaluated_anew_is_noticed() {
+    assert_caught("claims to be converged at entry although its input has changed", |_, _, effort| {
+        effort.entry_converged = true;
+        Ok(())
+    });
+}
+
+#[test]
+fn output_that_depends_on_the_call_history_is_noticed() {
+    assert_caught("differs by", |call, output, _| {
+        output[0] *= 1.0 + 1e-3 * call as f64;
+        Ok(())
+    });
+}
+
+#[test]
+fn rewind_that_leaves_a_trace_is_noticed() {
+    assert_caught("bit for bit", |call, output, _| {
+        output[0] *= 1.0 + 1e-14 * call as f64;
+        Ok(())
+    });
+}
+
+#[test]
+fn wrong_efforts_are_noticed() {
+    assert_caught("Newton iterations with a limit of", |_, _, effort| {
+        effort.newton += 3;
+        effort.solves += 3;
+        Ok(())
+    });
+    assert_caught("no part reports its change", |_, _, effort| {
+        effort.changes.clear();
+        Ok(())
+    });
+    assert_caught("came back unconverged", |_, _, effort| {
+        effort.converged = false;
+        Ok(())
+    });
+    assert_caught("not finite", |_, output, _| {
+        output[3] = f64::INFINITY;
+        Ok(())
+    });
+}
+
+/// An accelerator with a fault.
+struct Faulty {
+    inner: Box<dyn Accelerator>,
+    forgets_to_forget: bool,
+    poor_state: bool,
+}
+
+impl Accelerator for Faulty {
+    fn propose(&mut self, x: &mut [f64], r: &[f64]) -> Proposal {
+        self.inner.propose(x, r)
+    }
+    fn step_converged(&mut self, x: &[f64], r: &[f64]) {
+        self.inner.step_converged(x, r);
+    }
+    fn step_failed(&mut self) {
+        if self.forgets_to_forget {
+            self.inner.step_converged(&[0.0; 6], &[0.0; 6]);
+        } else {
+            self.inner.step_failed();
+        }
+    }
+    fn state(&self) -> AcceleratorState {
+        if self.poor_state { imvls().build(6).unwrap().state() } else { self.inner.state() }
+    }
+    fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError> {
+        self.inner.restore(state)
+    }
+}
+
+#[test]
+fn accelerators_that_keep_too_much_or_save_too_little_are_noticed() {
+    let build = |forgets_to_forget: bool, poor_state: bool| {
+        move || -> Box<dyn Accelerator> {
+            Box::new(Faulty { inner: imvls().build(6).unwrap(), forgets_to_forget, poor_state })
+        }
+    };
+    check_accelerator("sound", 6, &build(false, false)).unwrap();
+    assert!(check_accelerator("keeps a failed step", 6, &build(true, false)).is_err());
+    assert!(check_accelerator("saves nothing", 6, &build(false, true)).is_err());
 }

@@ -1,0 +1,319 @@
+//! Steps that end, fail and are tried again.
+
+use partita_coupling::models::tank::Tank;
+use partita_coupling::models::tube::Tube;
+use partita_coupling::{
+    Acceleration, AtLimit, CouplingSettings, Criterion, IdentityTransfer, March, MatrixTransfer, NewtonLimit,
+    ParticipantError, Policy, Record, SetupError, StepFailure,
+};
+
+use crate::support::{Spoiled, all_accelerations, fixed, imvls, march, settings, tank, tube};
+
+const DT: f64 = 1e-3;
+
+#[test]
+fn reaching_the_iteration_bound_is_an_error_with_the_history() {
+    let strict = CouplingSettings { max_iterations: 3, ..settings(imvls()) };
+    let mut run = tube(&Tube::default(), &strict);
+    let error = run.step(DT, &mut ()).unwrap_err();
+    assert!(matches!(*error.cause, StepFailure::TooManyIterations { iterations: 3, .. }));
+    assert_eq!((error.step.index, error.iteration, error.history.iterations.len()), (1, 3, 3));
+    assert_eq!(run.clock().steps, 0, "nothing is committed");
+    let message = error.to_string();
+    assert!(message.starts_with("step 1 (t = 0.001 s), coupling iteration 3, the step is not converged"));
+    assert!(message.contains("\nhint: "), "{message}");
+}
+
+#[test]
+fn step_at_the_bound_is_accepted_unconverged_where_asked() {
+    let lenient = CouplingSettings { max_iterations: 3, at_limit: AtLimit::Accept, ..settings(imvls()) };
+    let record = tube(&Tube::default(), &lenient).step(DT, &mut ()).unwrap();
+    assert!(!record.converged);
+    assert_eq!(record.iterations, 3);
+}
+
+#[test]
+fn convergence_in_the_last_allowed_iteration_counts() {
+    let needed = tube(&Tube::default(), &settings(imvls())).step(DT, &mut ()).unwrap().iterations;
+    let exact = CouplingSettings { max_iterations: needed, ..settings(imvls()) };
+    assert!(tube(&Tube::default(), &exact).step(DT, &mut ()).unwrap().converged);
+    let short = CouplingSettings { max_iterations: needed - 1, ..settings(imvls()) };
+    assert!(tube(&Tube::default(), &short).step(DT, &mut ()).is_err());
+}
+
+#[test]
+fn zero_start_stays_at_zero_with_every_acceleration() {
+    let still = Tube { inflow_peak: 0.0, ..Tube::default() };
+    for (name, acceleration) in all_accelerations() {
+        let mut run = tube(&still, &settings(acceleration));
+        for _ in 0..3 {
+            let record = run.step(DT, &mut ()).unwrap();
+            assert_eq!(record.iterations, 1, "{name}");
+            assert_eq!(record.largest_change.to_bits(), 0, "{name}: 0/0 counts as no change");
+        }
+        assert!(run.interface().x.iter().all(|x| *x == 0.0), "{name}");
+    }
+}
+
+#[test]
+fn zero_start_with_a_criterion_that_keeps_iterating_stays_finite() {
+    let still = Tube { inflow_peak: 0.0, ..Tube::default() };
+    for (name, acceleration) in all_accelerations() {
+        let endless = CouplingSettings {
+            // A strict bound of an absolute zero never holds: no residual is below it.
+            criterion: Criterion::InterfaceResidual(partita_coupling::Bound::Absolute(f64::MIN_POSITIVE)),
+            max_iterations: 6,
+            ..settings(acceleration)
+        };
+        let mut spoiled = still.participants().map(|(flow, wall)| {
+            // The wall claims to be unconverged, so the step cannot end.
+            let wall = Spoiled::new(wall, |_, _, effort| {
+                effort.converged = false;
+                Ok(())
+            });
+            march(flow, wall, &endless)
+        });
+        let run = spoiled.as_mut().unwrap();
+        let error = run.step(DT, &mut ()).unwrap_err();
+        assert!(matches!(*error.cause, StepFailure::TooManyIterations { .. }), "{name}: {error}");
+        assert!(run.interface().x.iter().all(|x| *x == 0.0), "{name}");
+    }
+}
+
+#[test]
+fn value_that_is_not_finite_is_caught_where_it_appears() {
+    let (flow, wall) = Tube::default().participants().unwrap();
+    let flow = Spoiled::new(flow, |call, output, _| {
+        if call == 2 {
+            output[7] = f64::NAN;
+        }
+        Ok(())
+    });
+    let error = march(flow, wall, &settings(imvls())).step(DT, &mut ()).unwrap_err();
+    assert_eq!(error.iteration, 2);
+    assert!(
+        error.to_string().starts_with(
+            "step 1 (t = 0.001 s), coupling iteration 2, flow: NaN at interface wall, point 7, component 0"
+        ),
+        "{error}"
+    );
+}
+
+#[test]
+fn failed_step_leaves_no_trace_and_can_be_tried_again() {
+    for (name, acceleration) in all_accelerations() {
+        let mut clean: Vec<Record> = Vec::new();
+        let mut run = tube(&Tube::default(), &settings(acceleration));
+        for _ in 0..4 {
+            run.step(DT, &mut clean).unwrap();
+        }
+
+        let (flow, wall) = Tube::default().participants().unwrap();
+        let mut armed = true;
+        let wall = Spoiled::new(wall, move |call, _, _| {
+            if armed && call == 20 {
+                armed = false;
+                return Err(ParticipantError::new("wall", "struck by lightning"));
+            }
+            Ok(())
+        });
+        let mut bumpy: Vec<Record> = Vec::new();
+        let mut run = march(flow, wall, &settings(acceleration));
+        let mut failures = 0;
+        while run.clock().steps < 4 {
+            let (before, written) = (run.state(), bumpy.len());
+            if run.step(DT, &mut bumpy).is_err() {
+                assert_eq!(run.state(), before, "{name}");
+                bumpy.truncate(written);
+                failures += 1;
+            }
+        }
+        assert_eq!(failures, 1, "{name}");
+        assert_eq!(strip(&bumpy), strip(&clean), "{name}");
+    }
+}
+
+fn strip(records: &[Record]) -> Vec<Record> {
+    let strip = |record: &Record| match record {
+        Record::Iteration(record) => Record::Iteration(record.without_seconds()),
+        Record::Step(record) => Record::Step(record.without_seconds()),
+    };
+    records.iter().map(strip).collect()
+}
+
+#[test]
+fn failed_step_can_be_tried_with_half_the_size() {
+    let (flow, wall) = Tube::default().participants().unwrap();
+    let wall =
+        Spoiled::new(
+            wall,
+            |call, _, _| {
+                if call == 4 { Err(ParticipantError::new("wall", "too much")) } else { Ok(()) }
+            },
+        );
+    let mut run = march(flow, wall, &settings(imvls()));
+    assert!(run.step(DT, &mut ()).is_err());
+    run.step(0.5 * DT, &mut ()).unwrap();
+    run.step(0.5 * DT, &mut ()).unwrap();
+    run.step(DT, &mut ()).unwrap();
+    assert_eq!(run.clock().steps, 3);
+    assert_eq!(run.clock().time.to_bits(), (2.0 * DT).to_bits());
+}
+
+#[test]
+fn equal_steps_gather_no_round_off_in_time() {
+    let still = Tank { gravity: 0.0, ballast: 0.0, ..Tank::default() };
+    let mut run = tank(&still, 3, &settings(imvls()));
+    for n in 1..=50 {
+        let record = run.step(0.01, &mut ()).unwrap();
+        assert_eq!(record.time.to_bits(), (f64::from(n) * 0.01).to_bits());
+    }
+}
+
+#[test]
+fn step_ends_only_when_every_field_meets_its_own_bound() {
+    // One Newton iteration a call: the changes get small before the residuals do.
+    let hasty = CouplingSettings {
+        policy: fixed(NewtonLimit::AtMost(1)),
+        criterion: Criterion::Changes { tolerance: 1e-2 },
+        ..settings(imvls())
+    };
+    let stiffening = Tube { hardening: 1e4, residual_bound: 1e-12, ..Tube::default() };
+    let mut run = tube(&stiffening, &hasty);
+    let mut waited = 0;
+    for _ in 0..10 {
+        run.step(DT, &mut ()).unwrap();
+        let (last, earlier) = run.history().iterations.split_last().unwrap();
+        assert!(last.fields.iter().all(|field| field.converged));
+        waited += earlier.iter().filter(|record| record.largest_change() < 1e-2).count();
+    }
+    assert!(waited > 0, "the test needs a step that waits for a field");
+}
+
+#[test]
+fn entry_residuals_end_a_step_only_after_calls_that_had_nothing_to_do() {
+    for policy in [fixed(NewtonLimit::AtMost(1)), fixed(NewtonLimit::ToConvergence)] {
+        let spenke = CouplingSettings { policy, criterion: Criterion::EntryResiduals, ..settings(imvls()) };
+        let mut run = tube(&Tube { residual_bound: 1e-8, ..Tube::default() }, &spenke);
+        for _ in 0..5 {
+            run.step(DT, &mut ()).unwrap();
+            let last = run.history().last().unwrap();
+            assert!(last.fields.iter().all(|field| field.entry_converged && field.newton == 0));
+        }
+    }
+}
+
+#[test]
+fn coupled_solution_does_not_depend_on_the_choices() {
+    let reference = after_five_steps(&CouplingSettings {
+        criterion: Criterion::Changes { tolerance: 1e-9 },
+        ..settings(imvls())
+    });
+    let policies = [
+        fixed(NewtonLimit::AtMost(1)),
+        Policy::UntilCoupled { at_most: 1, tolerance: 1e-9 },
+        Policy::ConvergedInterfaceData { tolerance: 1e-4 },
+    ];
+    for (name, acceleration) in all_accelerations() {
+        for policy in policies {
+            let x = after_five_steps(&CouplingSettings {
+                policy,
+                criterion: Criterion::Changes { tolerance: 1e-9 },
+                max_iterations: 5000,
+                ..settings(acceleration)
+            });
+            let scale = reference.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+            for (x, expected) in x.iter().zip(&reference) {
+                assert!((x - expected).abs() < 1e-6 * scale, "{name}, {policy:?}");
+            }
+        }
+    }
+}
+
+fn after_five_steps(settings: &CouplingSettings) -> Vec<f64> {
+    let mut run = tube(&Tube::default(), settings);
+    for _ in 0..5 {
+        run.step(DT, &mut ()).unwrap();
+    }
+    run.second().state().displacement.clone()
+}
+
+#[test]
+fn unfit_parts_are_refused_with_the_place() {
+    let (flow, wall) = Tube::default().participants().unwrap();
+    let Err(error) = March::new(flow, wall, vec![], &settings(imvls()), 0.0) else { panic!("no transfer") };
+    assert!(matches!(error, SetupError::BlockCount { transfers: 0, .. }));
+
+    let (flow, wall) = Tube::default().participants().unwrap();
+    let short = Box::new(IdentityTransfer::new(39));
+    let Err(error) = March::new(flow, wall, vec![short], &settings(imvls()), 0.0) else { panic!("short") };
+    assert_eq!(
+        error.to_string(),
+        "interface wall: the input of the first participant has 40 values, the transfer 39"
+    );
+
+    let (flow, wall) = Tube::default().participants().unwrap();
+    let transfer = Box::new(IdentityTransfer::new(40));
+    let Err(error) = March::new(wall, flow, vec![transfer], &settings(imvls()), 0.0) else {
+        panic!("swapped")
+    };
+    assert!(error.to_string().contains("must hand displacements"), "{error}");
+
+    let (tube_flow, _) = Tube::default().participants().unwrap();
+    let bottom = Tank::default().bottom(40).unwrap();
+    let transfer = Box::new(IdentityTransfer::new(40));
+    let Err(error) = March::new(tube_flow, bottom, vec![transfer], &settings(imvls()), 0.0) else {
+        panic!("different interfaces")
+    };
+    assert_eq!(error.to_string(), "interface wall: meets interface bottom");
+}
+
+#[test]
+fn settings_out_of_range_are_refused() {
+    let good = settings(imvls());
+    let bad = [
+        CouplingSettings { max_iterations: 0, ..good.clone() },
+        CouplingSettings { acceleration: Acceleration::Constant { omega: 0.0 }, ..good.clone() },
+        CouplingSettings { acceleration: Acceleration::Aitken { omega_0: f64::NAN }, ..good.clone() },
+        CouplingSettings { policy: fixed(NewtonLimit::AtMost(0)), ..good.clone() },
+        CouplingSettings { criterion: Criterion::All(vec![]), ..good.clone() },
+        CouplingSettings { criterion: Criterion::Changes { tolerance: -1.0 }, ..good },
+    ];
+    for settings in bad {
+        let Err(error) = settings.build(4) else { panic!("{settings:?} must be refused") };
+        assert!(error.to_string().contains("\nhint: "), "{error}");
+    }
+}
+
+#[test]
+fn unequal_resolutions_keep_the_virtual_work_in_every_iteration() {
+    // 30 points of the fluid between 12 of the bottom, linear interpolation, ends held.
+    let (fine, coarse) = (30, 12);
+    let rows: Vec<Vec<(usize, f64)>> = (0..fine)
+        .map(|i| {
+            let at = ((i as f64 + 0.5) / fine as f64 * coarse as f64 - 0.5).clamp(0.0, coarse as f64 - 1.0);
+            let left = (at.floor() as usize).min(coarse - 2);
+            vec![(left, 1.0 - (at - left as f64)), (left + 1, at - left as f64)]
+        })
+        .collect();
+    let transfer = MatrixTransfer::from_rows(coarse, 1, &rows).unwrap();
+    let heavy = Tank::default();
+    let mut run = March::new(
+        heavy.fluid(fine).unwrap(),
+        heavy.bottom(coarse).unwrap(),
+        vec![Box::new(transfer)],
+        &settings(imvls()),
+        0.0,
+    )
+    .unwrap();
+    for _ in 0..5 {
+        run.step(0.01, &mut ()).unwrap();
+        for record in &run.history().iterations {
+            assert!(record.work_defect < 1e-14, "work defect {:e}", record.work_defect);
+        }
+        let interface = run.interface();
+        let (sent, received): (f64, f64) =
+            (interface.load.iter().sum(), interface.transferred_load.iter().sum());
+        assert!((sent - received).abs() < 1e-13 * sent.abs(), "{sent} N/m sent, {received} N/m received");
+    }
+}

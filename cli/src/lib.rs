@@ -1,5 +1,14 @@
 //! Partitioned fluid-structure interaction from a scene file.
 
+pub mod adapt;
+pub mod build;
+pub mod check;
+pub mod checkpoint;
+mod draw;
 pub mod expression;
 mod nearest;
+pub mod output;
+mod probe;
+pub mod progress;
 pub mod scene;
+pub mod session;

@@ -1,2 +1,91 @@
-//! Placeholder.
-fn main() {}
+//! The program `partita`: reads the command line, calls the library, says how it went.
+
+mod args;
+mod failure;
+
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::Parser;
+use partita::output::{Clock, Ending, Summary};
+use partita::session::{Options, Session};
+use partita::{build, check, output, scene};
+
+use args::{Arguments, Check, Command, Manner, Resume, Run};
+use failure::Failure;
+
+/// Set when the user asks to stop; the run ends after its step.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// Exit code of a program that was interrupted.
+const INTERRUPTED: u8 = 130;
+
+fn main() -> ExitCode {
+    let clock = Clock::start();
+    let outcome = match Arguments::parse().command {
+        Command::Run(arguments) => run(&arguments, clock),
+        Command::Check(arguments) => check(&arguments),
+        Command::Resume(arguments) => resume(&arguments, clock),
+    };
+    outcome.unwrap_or_else(|failure| failure.show())
+}
+
+fn run(arguments: &Run, clock: Clock) -> Result<ExitCode, Failure> {
+    let resolved = scene::load(&arguments.scene.path, &arguments.scene.overrides)?;
+    let dir = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(&resolved.name));
+    if arguments.force {
+        build::run(&resolved.scene)?;
+        output::remove_run(&dir)?;
+    }
+    let text = resolved.to_toml();
+    let session = Session::start(&resolved.scene, &text, &dir, options(&arguments.manner), clock)?;
+    finish(session, &dir, &arguments.manner)
+}
+
+fn check(arguments: &Check) -> Result<ExitCode, Failure> {
+    let resolved = scene::load(&arguments.scene.path, &arguments.scene.overrides)?;
+    print!("{}", check::describe(&resolved.scene)?);
+    Ok(ExitCode::SUCCESS)
+}
+
+fn resume(arguments: &Resume, clock: Clock) -> Result<ExitCode, Failure> {
+    let resolved = scene::load(&arguments.dir, &[])?;
+    let session = Session::resume(&resolved.scene, &arguments.dir, options(&arguments.manner), clock)?;
+    finish(session, &arguments.dir, &arguments.manner)
+}
+
+fn options(manner: &Manner) -> Options<'static> {
+    // The first interrupt waits for the end of the step, the second does not. Where no handler can be set, the
+    // system's own stays: it stops at once, and the run can be resumed from its last checkpoint.
+    let _ = ctrlc::set_handler(|| {
+        if STOP.swap(true, Ordering::Relaxed) {
+            std::process::exit(INTERRUPTED.into());
+        }
+    });
+    Options { steps: manner.steps.map(Into::into), quiet: manner.quiet, stop: Some(&STOP) }
+}
+
+fn finish(session: Session<'_>, dir: &Path, manner: &Manner) -> Result<ExitCode, Failure> {
+    let summary = session.finish()?;
+    say(&summary, dir, manner);
+    Ok(match summary.ending {
+        Ending::Interrupted => ExitCode::from(INTERRUPTED),
+        Ending::Completed | Ending::Failed => ExitCode::SUCCESS,
+    })
+}
+
+/// The summary goes to stdout, where it was written to stderr.
+fn say(summary: &Summary, dir: &Path, manner: &Manner) {
+    if manner.json {
+        println!("{}", serde_json::to_string_pretty(summary).expect("a summary is plain data"));
+    } else if !manner.quiet {
+        print!("{}", summary.table().to_plain());
+    }
+    if !manner.quiet {
+        eprintln!("output in {}", dir.display());
+    }
+    if summary.ending == Ending::Interrupted {
+        eprintln!("stopped after step {}; go on with `partita resume {}`", summary.steps, dir.display());
+    }
+}

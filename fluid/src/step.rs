@@ -132,9 +132,9 @@ impl<const D: usize> FluidSolver<D> {
     /// # Errors
     ///
     /// If the state belongs to another mesh.
-    pub fn restore(&mut self, state: FluidState) -> Result<(), FluidError> {
-        self.committed.check_fits(&state)?;
-        self.committed = state;
+    pub fn restore(&mut self, state: &FluidState) -> Result<(), FluidError> {
+        self.committed.check_fits(state)?;
+        self.committed.clone_from(state);
         self.rewind();
         Ok(())
     }

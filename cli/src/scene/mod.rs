@@ -17,3 +17,4 @@ mod write;
 pub use diagnose::{Problem, SceneError};
 pub use resolve::{Resolved, SCENE_FILE, load, parse};
 pub use write::to_toml;
+pub(crate) use write::words;

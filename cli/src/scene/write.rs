@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use serde::Serialize;
 use toml::{Table, Value};
 
 use super::schema::Scene;
@@ -16,6 +17,25 @@ pub fn to_toml(scene: &Scene) -> String {
     let mut text = String::new();
     write_table(&mut text, &table_of(scene), &mut Vec::new());
     text
+}
+
+/// A part of a scene in a few words: `qr3 0.01`, `fixed (fluid 1, structure unlimited)`.
+pub(crate) fn words(part: &impl Serialize) -> String {
+    spoken(&Value::try_from(part).expect("a scene is made of tables, lists, numbers and text"))
+}
+
+fn spoken(value: &Value) -> String {
+    match value {
+        Value::String(word) => word.clone(),
+        Value::Table(table) => {
+            let entries = table.iter().map(|(name, value)| match value {
+                Value::Table(_) => format!("{name} ({})", spoken(value)),
+                _ => format!("{name} {}", spoken(value)),
+            });
+            entries.collect::<Vec<_>>().join(", ")
+        }
+        other => inline(other),
+    }
 }
 
 /// The scene as a table, every default filled in.

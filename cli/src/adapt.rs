@@ -1,0 +1,210 @@
+//! From a field solver to a participant of the coupling.
+//!
+//! The fields do not know the coupling and the coupling does not know the fields; [`Adapter`] stands between them. It
+//! composes one call from the primitives of [`Field`] and the one Newton loop, and measures what the call changed and
+//! what it cost. It holds no numerics of its own.
+
+mod field;
+mod slot;
+mod solvers;
+
+use std::error::Error;
+
+use partita_coupling::port::total_len;
+use partita_coupling::{Block, Change, Effort, NewtonLimit, Participant, ParticipantError, PhaseTimes, Step};
+use partita_numerics::newton::{self, Bound, Failure, Limit, Report, ResidualNorm, Verdict};
+use partita_numerics::norms::{norm2, relative, relative_change};
+use partita_numerics::phases::PhaseSeconds;
+use serde::{Deserialize, Serialize};
+
+pub use field::Field;
+pub use slot::{Misfit, Slot, SlotState};
+
+/// A field as a participant of the coupling.
+pub struct Adapter<F> {
+    field: F,
+    input: Vec<Block>,
+    output: Vec<Block>,
+    /// The iterate at the exit of the last call, or the start of the step.
+    entry: Vec<f64>,
+    /// The interface output of the last call, for calls that run until it settles.
+    last_output: Vec<f64>,
+}
+
+/// What an adapter and its field remember between steps.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AdapterState<S> {
+    /// The field's own state.
+    pub field: S,
+    /// The interface output of the last call.
+    pub last_output: Vec<f64>,
+}
+
+impl<F: Field> Adapter<F> {
+    /// A participant of `field` whose interface vectors are made of these blocks.
+    #[must_use]
+    pub fn new(field: F, input: Vec<Block>, output: Vec<Block>) -> Self {
+        let entry = field.values().to_vec();
+        let last_output = vec![0.0; total_len(&output)];
+        Self { field, input, output, entry, last_output }
+    }
+
+    /// The field solver.
+    #[must_use]
+    pub fn field(&self) -> &F {
+        &self.field
+    }
+
+    /// What must be saved to continue.
+    #[must_use]
+    pub fn state(&self) -> AdapterState<F::State> {
+        AdapterState { field: self.field.state(), last_output: self.last_output.clone() }
+    }
+
+    /// Continues from a saved state, bit for bit.
+    ///
+    /// # Errors
+    /// When the state belongs to another discretization.
+    pub fn restore(&mut self, state: &AdapterState<F::State>) -> Result<(), F::Error> {
+        self.field.restore(&state.field)?;
+        self.last_output.copy_from_slice(&state.last_output);
+        Ok(())
+    }
+
+    fn changes(&self) -> Vec<Change> {
+        (0..self.field.part_count())
+            .map(|index| {
+                let (name, dofs) = self.field.part(index);
+                Change::new(name, relative_change(&self.entry, self.field.values(), dofs))
+            })
+            .collect()
+    }
+}
+
+impl<F> Participant for Adapter<F>
+where
+    F: Field,
+    F::Error: Error + Send + Sync + 'static,
+{
+    fn name(&self) -> &str {
+        F::NAME
+    }
+
+    fn input(&self) -> &[Block] {
+        &self.input
+    }
+
+    fn output(&self) -> &[Block] {
+        &self.output
+    }
+
+    fn begin_step(&mut self, step: &Step) -> Result<(), ParticipantError> {
+        self.field.begin_step(step.time, step.dt).map_err(|error| field_error::<F>(&error))?;
+        self.entry.copy_from_slice(self.field.values());
+        Ok(())
+    }
+
+    fn advance(
+        &mut self,
+        input: &[f64],
+        limit: NewtonLimit,
+        output: &mut [f64],
+    ) -> Result<Effort, ParticipantError> {
+        let before = self.field.phases();
+        self.field.impose(input).map_err(|error| field_error::<F>(&error))?;
+        let (limit, settles) = loop_limit(limit);
+        let settings = *self.field.newton();
+        let last_output = &mut self.last_output;
+        let report = newton::solve(&mut self.field, &settings, limit, |field, _| {
+            let Some(tolerance) = settles else { return Verdict::Continue };
+            field.output(output);
+            let change = output_change(last_output, output);
+            last_output.copy_from_slice(output);
+            if change < tolerance { Verdict::Stop } else { Verdict::Continue }
+        })
+        .map_err(|failure| newton_error::<F>(&failure))?;
+        self.field.output(output);
+        self.last_output.copy_from_slice(output);
+        let changes = self.changes();
+        self.entry.copy_from_slice(self.field.values());
+        Ok(effort(&report, settings.bound, changes, self.field.phases() - before))
+    }
+
+    fn commit(&mut self) {
+        self.field.commit();
+    }
+
+    fn rewind(&mut self) {
+        self.field.rewind();
+        self.entry.copy_from_slice(self.field.values());
+    }
+}
+
+/// `|now - last| / |now|`, 0/0 = 0.
+fn output_change(last: &[f64], now: &[f64]) -> f64 {
+    let squares = last.iter().zip(now).map(|(last, now)| (now - last) * (now - last));
+    relative(squares.sum::<f64>().sqrt(), norm2(now))
+}
+
+/// The limit of the Newton loop, and the tolerance of the output where the output decides.
+fn loop_limit(limit: NewtonLimit) -> (Limit, Option<f64>) {
+    match limit {
+        NewtonLimit::AtMost(iterations) => (Limit::AtMost(iterations), None),
+        NewtonLimit::ToConvergence => (Limit::ToConvergence, None),
+        NewtonLimit::UntilOutputSettles { tolerance } => (Limit::ToConvergence, Some(tolerance)),
+    }
+}
+
+fn effort(report: &Report, bound: Bound, changes: Vec<Change>, phases: PhaseSeconds) -> Effort {
+    let measured = |norm: &ResidualNorm| match bound {
+        Bound::Relative(_) => norm.relative,
+        Bound::Absolute(_) => norm.absolute,
+    };
+    Effort {
+        newton: report.iterations,
+        assemblies: report.assemblies,
+        factorizations: report.factorizations,
+        solves: report.solves,
+        entry_residual: measured(&report.entry),
+        residual: measured(&report.exit),
+        entry_converged: bound.met(&report.entry),
+        converged: report.converged,
+        changes,
+        time: PhaseTimes {
+            assembly: phases.assembly,
+            factorization: phases.factorization,
+            solve: phases.solve,
+            mesh_motion: phases.motion,
+        },
+    }
+}
+
+/// The field's error in its own words.
+fn field_error<F: Field>(error: &F::Error) -> ParticipantError
+where
+    F::Error: Error,
+{
+    split_hint(F::NAME, &error.to_string())
+}
+
+/// A failed Newton loop; where the field itself failed inside, its words follow.
+fn newton_error<F: Field>(failure: &Failure<F::Error>) -> ParticipantError
+where
+    F::Error: Error,
+{
+    match failure {
+        Failure::Problem { iteration, source } => {
+            split_hint(F::NAME, &format!("Newton iteration {iteration}: {source}"))
+        }
+        other => split_hint(F::NAME, &other.to_string()),
+    }
+}
+
+/// Messages of the fields may begin with their name and end with a line `hint: ...`; the coupling keeps both apart.
+fn split_hint(field: &str, message: &str) -> ParticipantError {
+    let message = message.strip_prefix(field).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(message);
+    match message.split_once("\nhint: ") {
+        Some((what, hint)) => ParticipantError::new(field, what).with_hint(hint),
+        None => ParticipantError::new(field, message),
+    }
+}

@@ -1,0 +1,61 @@
+//! The primitives that the adapter composes, under one name for both fields.
+
+use partita_numerics::newton::{self, Problem};
+use partita_numerics::phases::PhaseSeconds;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// A field solver as the adapter sees it: imposed interface data in, one Newton iteration at a time, interface
+/// output out. The solvers themselves know neither this trait nor the coupling.
+pub trait Field: Problem {
+    /// What the field remembers between steps, as plain data.
+    type State: Clone + Serialize + DeserializeOwned;
+
+    /// Name in records and messages.
+    const NAME: &'static str;
+
+    /// Starts the step that ends at `time` \[s\] with size `dt` \[s\] from the committed state.
+    ///
+    /// # Errors
+    /// When the field cannot start a step of this size.
+    fn begin_step(&mut self, time: f64, dt: f64) -> Result<(), Self::Error>;
+
+    /// Imposes interface data on the trial state; the iterate is otherwise kept.
+    ///
+    /// # Errors
+    /// When the data leads to an impossible state, such as an inverted element of the fluid mesh.
+    fn impose(&mut self, input: &[f64]) -> Result<(), Self::Error>;
+
+    /// Interface output of the last assembled iterate.
+    fn output(&self, output: &mut [f64]);
+
+    /// The trial state becomes the committed one.
+    fn commit(&mut self);
+
+    /// The trial state is given up.
+    fn rewind(&mut self);
+
+    /// The committed state.
+    fn state(&self) -> Self::State;
+
+    /// Continues from a saved state, bit for bit.
+    ///
+    /// # Errors
+    /// When the state belongs to another discretization.
+    fn restore(&mut self, state: &Self::State) -> Result<(), Self::Error>;
+
+    /// The current iterate, all dofs.
+    fn values(&self) -> &[f64];
+
+    /// Number of parts whose change is judged separately.
+    fn part_count(&self) -> usize;
+
+    /// Name and free dofs of a part.
+    fn part(&self, index: usize) -> (&'static str, &[usize]);
+
+    /// Settings of the Newton loop.
+    fn newton(&self) -> &newton::Settings;
+
+    /// Seconds spent in each phase since the solver was built.
+    fn phases(&self) -> PhaseSeconds;
+}

@@ -1,0 +1,61 @@
+//! The primitives of the two solvers under the adapter's names; both spell them alike.
+
+use std::convert::identity;
+
+use partita_fluid::{FluidError, FluidSolver, FluidState};
+use partita_numerics::newton;
+use partita_numerics::phases::PhaseSeconds;
+use partita_structure::{StructureError, StructureSolver, StructureState};
+
+use super::Field;
+
+macro_rules! field {
+    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr) => {
+        impl Field for $solver {
+            type State = $state;
+            const NAME: &'static str = $name;
+
+            fn begin_step(&mut self, time: f64, dt: f64) -> Result<(), $error> {
+                $result(Self::begin_step(self, time, dt))
+            }
+            fn impose(&mut self, input: &[f64]) -> Result<(), $error> {
+                $result(Self::impose(self, input))
+            }
+            fn output(&self, output: &mut [f64]) {
+                Self::output(self, output);
+            }
+            fn commit(&mut self) {
+                Self::commit(self);
+            }
+            fn rewind(&mut self) {
+                Self::rewind(self);
+            }
+            fn state(&self) -> $state {
+                Self::state(self).clone()
+            }
+            fn restore(&mut self, state: &$state) -> Result<(), $error> {
+                Self::restore(self, state)
+            }
+            fn values(&self) -> &[f64] {
+                Self::values(self)
+            }
+            fn part_count(&self) -> usize {
+                self.parts().len()
+            }
+            fn part(&self, index: usize) -> (&'static str, &[usize]) {
+                let part = &self.parts()[index];
+                (part.name, &part.dofs)
+            }
+            fn newton(&self) -> &newton::Settings {
+                self.newton_settings()
+            }
+            fn phases(&self) -> PhaseSeconds {
+                Self::phases(self)
+            }
+        }
+    };
+}
+
+field!(FluidSolver<2>, FluidState, FluidError, "fluid", identity);
+// No interface data can break a structure before its equations are solved.
+field!(StructureSolver<2>, StructureState, StructureError, "structure", Ok);

@@ -1,0 +1,100 @@
+//! From a validated scene to a run that can be stepped.
+
+mod coupling;
+mod fluid;
+mod interface;
+mod structure;
+
+use partita_coupling::{Block, March, Quantity, SetupError, Transfer};
+use partita_fluid::{FluidError, FluidSolver};
+use partita_iga::transfer::TransferError;
+use partita_mesh::MeshError;
+use partita_numerics::newton::{self, Bound, Check};
+use partita_structure::{MaterialError, StructureError, StructureSolver};
+use thiserror::Error;
+
+pub use fluid::mesh as fluid_mesh;
+pub(crate) use fluid::nearest_node;
+pub use structure::patch as structure_patch;
+
+use crate::adapt::{Adapter, Slot};
+use crate::scene::schema::{self, Scene};
+
+/// A run of a scene: fluid first, structure second, either of them possibly absent.
+pub type Run = March<Slot<FluidSolver<2>>, Slot<StructureSolver<2>>>;
+
+/// Interface values per point.
+const COMPONENTS: usize = 2;
+/// Name of the interface in messages.
+const INTERFACE: &str = "interface";
+
+/// A scene that reads well but cannot be built.
+#[derive(Debug, Error)]
+pub enum BuildError {
+    /// The fluid's mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The fluid.
+    #[error(transparent)]
+    Fluid(#[from] FluidError),
+    /// The structure's geometry.
+    #[error(transparent)]
+    Geometry(#[from] partita_iga::build::BuildError),
+    /// The structure's material.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    /// The structure.
+    #[error(transparent)]
+    Structure(#[from] StructureError),
+    /// Fluid and structure do not meet.
+    #[error(transparent)]
+    Interface(#[from] TransferError),
+    /// The coupling.
+    #[error(transparent)]
+    Coupling(#[from] SetupError),
+}
+
+/// The run of `scene`, at its initial state.
+///
+/// # Errors
+/// When the parts of the scene do not fit together.
+pub fn run(scene: &Scene) -> Result<Run, BuildError> {
+    let fluid = scene.fluid.as_ref().map(fluid::solver).transpose()?;
+    let structure = scene.structure.as_ref().map(structure::solver).transpose()?;
+    let (settings, transfers) = match (&scene.coupling, &fluid, &structure) {
+        (Some(coupling), Some(fluid), Some(structure)) => {
+            let tolerance = coupling.projection_tolerance.get();
+            (coupling::settings(coupling), vec![interface::transfer(fluid, structure, tolerance)?])
+        }
+        _ => (coupling::one_field(), Vec::<Box<dyn Transfer>>::new()),
+    };
+    let coupled = !transfers.is_empty();
+    let blocks = |quantity, points| match coupled {
+        true => vec![Block::new(INTERFACE, quantity, COMPONENTS, points)],
+        false => Vec::new(),
+    };
+    let first = fluid.map(|fluid| {
+        let points = fluid.interface_nodes().len();
+        Adapter::new(fluid, blocks(Quantity::Displacement, points), blocks(Quantity::Force, points))
+    });
+    let second = structure.map(|structure| {
+        let points = structure.interface_points().len();
+        Adapter::new(structure, blocks(Quantity::Force, points), blocks(Quantity::Displacement, points))
+    });
+    Ok(March::new(Slot::new(first), Slot::new(second), transfers, &settings, 0.0)?)
+}
+
+fn newton(newton: &schema::Newton) -> newton::Settings {
+    newton::Settings {
+        bound: match newton.tolerance {
+            schema::Tolerance::Relative(bound) => Bound::Relative(bound.get()),
+            schema::Tolerance::Absolute(bound) => Bound::Absolute(bound.get()),
+        },
+        check: match newton.check {
+            schema::Check::Before => Check::Before,
+            schema::Check::Lagged => Check::Lagged,
+        },
+        max_iterations: newton.max_iterations.get(),
+        ..newton::Settings::default()
+    }
+}

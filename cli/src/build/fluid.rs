@@ -1,0 +1,123 @@
+//! The scene's fluid in the words of the fluid crate.
+
+use partita_fluid::FluidSolver;
+use partita_fluid::model::{BodyForce, BoundaryCondition, FluidModel, InitialState};
+use partita_fluid::settings::{FluidSettings, PressurePin, Tangent, TimeScheme};
+use partita_mesh::Mesh;
+use partita_mesh::generate::{self, Diagonal, RectangleMesh};
+use partita_mesh::motion::{MotionLaw, MotionMode, MotionSettings};
+use partita_numerics::time::BdfOrder;
+
+use super::{BuildError, newton};
+use crate::scene::schema;
+
+/// The mesh of a scene's fluid.
+///
+/// # Errors
+/// When the mesh cannot be made.
+pub fn mesh(fluid: &schema::Fluid) -> Result<Mesh<2>, BuildError> {
+    let schema::FluidMesh::Rectangle(rectangle) = &fluid.mesh;
+    Ok(generate::rectangle(&RectangleMesh {
+        origin: rectangle.origin.map(schema::Real::get),
+        size: rectangle.size.map(schema::Positive::get),
+        divisions: rectangle.divisions.map(schema::Count::get),
+        pattern: match rectangle.diagonals {
+            schema::Diagonals::Crossed => Diagonal::Crossed,
+            schema::Diagonals::Right => Diagonal::Right,
+            schema::Diagonals::Left => Diagonal::Left,
+            schema::Diagonals::Alternating => Diagonal::Alternating,
+        },
+    })?)
+}
+
+/// The solver of a scene's fluid, at its initial state.
+///
+/// # Errors
+/// When mesh, conditions and settings do not fit together.
+pub(super) fn solver(fluid: &schema::Fluid) -> Result<FluidSolver<2>, BuildError> {
+    let mesh = mesh(fluid)?;
+    let settings = settings(fluid, &mesh);
+    Ok(FluidSolver::new(mesh, model(fluid), settings)?)
+}
+
+fn model(fluid: &schema::Fluid) -> FluidModel<2> {
+    let conditions = fluid.boundary.iter().map(|(group, condition)| (group.clone(), boundary(condition)));
+    FluidModel {
+        density: fluid.density.get(),
+        viscosity: fluid.viscosity.get(),
+        body_force: match fluid.body_force.constant() {
+            Some(force) => BodyForce::Constant(force),
+            None => BodyForce::Field(fluid.body_force.function()),
+        },
+        boundary: conditions.collect(),
+        initial: match &fluid.initial {
+            schema::Initial::Rest => InitialState::Rest,
+            schema::Initial::Velocity(formula) => InitialState::Velocity(formula.function()),
+        },
+    }
+}
+
+fn boundary(condition: &schema::Condition) -> BoundaryCondition<2> {
+    use schema::Condition;
+    match condition {
+        Condition::NoSlip => BoundaryCondition::NoSlip,
+        Condition::Slip => BoundaryCondition::Slip,
+        Condition::Interface => BoundaryCondition::Interface,
+        Condition::Velocity(formula) => BoundaryCondition::Velocity(formula.function()),
+        Condition::WallMotion(formula) => BoundaryCondition::WallMotion(formula.function()),
+        Condition::Traction(formula) => BoundaryCondition::Traction(formula.function()),
+        Condition::DoNothing(outflow) => {
+            BoundaryCondition::DoNothing { backflow: outflow.backflow_stabilization }
+        }
+        Condition::StressFree(outflow) => {
+            BoundaryCondition::StressFree { backflow: outflow.backflow_stabilization }
+        }
+    }
+}
+
+fn settings(fluid: &schema::Fluid, mesh: &Mesh<2>) -> FluidSettings {
+    FluidSettings {
+        time: match fluid.time_scheme {
+            schema::FluidTimeScheme::Bdf1 => TimeScheme::Bdf(BdfOrder::One),
+            schema::FluidTimeScheme::Bdf2 => TimeScheme::Bdf(BdfOrder::Two),
+            schema::FluidTimeScheme::Steady => TimeScheme::Steady,
+        },
+        tangent: match fluid.tangent {
+            schema::Tangent::Full => Tangent::Full,
+            schema::Tangent::FrozenTau => Tangent::FrozenTau,
+            schema::Tangent::Picard => Tangent::Picard,
+        },
+        inverse_constant: fluid.inverse_constant.get(),
+        newton: newton(&fluid.newton),
+        motion: motion(&fluid.mesh_motion),
+        mesh_slide: fluid.mesh_motion.slide.clone(),
+        pressure_pin: fluid.pressure_pin.map(|pin| PressurePin {
+            node: nearest_node(mesh, pin.point.map(schema::Real::get)),
+            pressure: pin.value.get(),
+        }),
+    }
+}
+
+fn motion(motion: &schema::MeshMotion) -> MotionSettings {
+    MotionSettings {
+        law: match motion.law {
+            schema::MotionLaw::Elastic { poisson_ratio, stiffening } => {
+                MotionLaw::Elastic { poisson_ratio: poisson_ratio.get(), stiffening: stiffening.get() }
+            }
+            schema::MotionLaw::Harmonic { stiffening } => {
+                MotionLaw::Harmonic { stiffening: stiffening.get() }
+            }
+        },
+        mode: match motion.mode {
+            schema::MotionMode::Reference => MotionMode::Reference,
+            schema::MotionMode::Incremental => MotionMode::Incremental,
+        },
+    }
+}
+
+/// The node of `mesh` closest to `point`; of several the one with the smallest number.
+pub(crate) fn nearest_node(mesh: &Mesh<2>, point: [f64; 2]) -> usize {
+    let squared = |node: &[f64; 2]| (node[0] - point[0]).powi(2) + (node[1] - point[1]).powi(2);
+    let nodes = mesh.points().iter().enumerate();
+    nodes.min_by(|a, b| squared(a.1).total_cmp(&squared(b.1))).map_or(0, |(index, _)| index)
+}

@@ -1,0 +1,82 @@
+//! The scene's structure in the words of the structure crate.
+
+use partita_iga::{Side, Spline, build};
+use partita_structure::{
+    BodyForce, Law, Material, Plane, Rayleigh, Space, StructureModel, StructureSettings, StructureSolver,
+    TimeScheme,
+};
+
+use super::{BuildError, newton};
+use crate::scene::schema;
+
+/// The patch of a scene's structure.
+///
+/// # Errors
+/// When the patch cannot be made.
+pub fn patch(structure: &schema::Structure) -> Result<Spline<2>, BuildError> {
+    let schema::Geometry::Rectangle(rectangle) = &structure.geometry;
+    Ok(build::rectangle(
+        rectangle.origin.map(schema::Real::get),
+        rectangle.size.map(schema::Positive::get),
+        rectangle.degree.map(schema::Degree::get),
+        rectangle.elements.map(schema::Count::get),
+    )?)
+}
+
+/// The solver of a scene's structure, at rest.
+///
+/// # Errors
+/// When geometry, material and settings do not fit together.
+pub(super) fn solver(structure: &schema::Structure) -> Result<StructureSolver<2>, BuildError> {
+    let model = StructureModel {
+        density: structure.density.get(),
+        material: material(&structure.material)?,
+        body_force: body_force(&structure.body_force),
+        clamped: structure.clamped.iter().copied().map(side).collect(),
+        wetted: structure.wetted.iter().copied().map(side).collect(),
+    };
+    let settings = StructureSettings {
+        time: match structure.time_scheme {
+            schema::StructureTimeScheme::GeneralizedAlpha { spectral_radius } => {
+                TimeScheme::GeneralizedAlpha { spectral_radius: spectral_radius.get() }
+            }
+            schema::StructureTimeScheme::QuasiStatic => TimeScheme::QuasiStatic,
+        },
+        newton: newton(&structure.newton),
+        rayleigh: structure
+            .rayleigh_damping
+            .map(|damping| Rayleigh { mass: damping.mass.get(), stiffness: damping.stiffness.get() }),
+        line_search: None,
+    };
+    Ok(StructureSolver::new(Space::Patch(patch(structure)?), model, settings)?)
+}
+
+fn material(material: &schema::Material) -> Result<Material, BuildError> {
+    let (law, elastic) = match material {
+        schema::Material::SaintVenantKirchhoff(elastic) => (Law::StVenantKirchhoff, elastic),
+        schema::Material::LinearElastic(elastic) => (Law::LinearElastic, elastic),
+    };
+    let plane = match elastic.plane {
+        schema::Plane::Strain => Plane::Strain,
+        schema::Plane::Stress => Plane::Stress,
+    };
+    Ok(Material::new(law, elastic.young_modulus.get(), elastic.poisson_ratio.get(), plane)?)
+}
+
+/// A body force is uniform in space; the scene has made sure that no expression asks for the place.
+fn body_force(formula: &schema::VectorFormula) -> BodyForce<2> {
+    if let Some(force) = formula.constant() {
+        return BodyForce::Constant(force);
+    }
+    let field = formula.function();
+    BodyForce::in_time(move |time| field(&[0.0; 2], time))
+}
+
+fn side(side: schema::Side) -> Side {
+    match side {
+        schema::Side::Left => Side::LEFT,
+        schema::Side::Right => Side::RIGHT,
+        schema::Side::Bottom => Side::BOTTOM,
+        schema::Side::Top => Side::TOP,
+    }
+}

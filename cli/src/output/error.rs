@@ -1,0 +1,54 @@
+//! What can go wrong with an output folder.
+
+use std::io;
+use std::path::PathBuf;
+
+use partita_mesh::vtu::VtuError;
+
+/// Why a run's output cannot be written or taken up again.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// The system refuses to write.
+    #[error("cannot write {path}: {source}\nhint: check the folder's permissions and the space left", path = path.display())]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The system refuses to read.
+    #[error("cannot read {path}: {source}\nhint: give the output folder of a run", path = path.display())]
+    Read {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The folder is in use.
+    #[error("{dir} is not empty\nhint: choose another folder with --out; --force replaces an earlier run, never other files", dir = dir.display())]
+    Occupied {
+        /// The folder.
+        dir: PathBuf,
+    },
+    /// A line is not what a run writes.
+    #[error("{path}:{line}: {reason}\nhint: the file was changed after the run wrote it, or by another version of Partita", path = path.display())]
+    Corrupt {
+        /// The file.
+        path: PathBuf,
+        /// Its line, counted from 1.
+        line: usize,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A file lacks steps that the checkpoint has behind it.
+    #[error("{path} ends before step {step}, the step of the checkpoint\nhint: the file was cut; resume from an earlier checkpoint or start anew", path = path.display())]
+    Cut {
+        /// The file.
+        path: PathBuf,
+        /// The checkpoint's step.
+        step: usize,
+    },
+    /// A field file or its collection.
+    #[error(transparent)]
+    Fields(#[from] VtuError),
+}

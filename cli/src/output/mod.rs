@@ -1,0 +1,277 @@
+//! The output folder of a run.
+//!
+//! | file | content |
+//! |---|---|
+//! | `scene.toml` | the scene with every default written out; it runs again as it is |
+//! | `run.jsonl` | a line for each coupling iteration and one for each step |
+//! | `iterations.csv`, `steps.csv` | the same, as tables |
+//! | `probes.csv` | values that the scene asks for, a row a step |
+//! | `fluid.pvd`, `structure.pvd`, `fields/` | fields for a viewer |
+//! | `summary.json` | counts and times of the whole run, written at its end |
+//! | `checkpoint.bin`, `checkpoint.previous.bin` | see [`crate::checkpoint`] |
+//!
+//! Lines and rows go to the system one by one, so that a killed run keeps its history. A resumed run cuts every file
+//! behind the step of its checkpoint and goes on there: but for times, the files of a resumed run and of one that was
+//! never stopped are the same bytes. Times stand in the object `seconds` of a line and in columns that end in `_seconds`.
+
+mod csv;
+mod error;
+pub mod fields;
+mod lines;
+mod record;
+mod summary;
+pub mod table;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use partita_coupling::Record;
+use partita_coupling::record::{IterationRecord, StepRecord};
+
+use crate::checkpoint::{self, Stamp};
+use csv::CsvFile;
+use fields::{FieldFiles, Series, Snapshot, remove_if_there};
+use lines::LineFile;
+use record::{Line, ProbeRow};
+
+pub use error::OutputError;
+pub use summary::{Clock, Ending, Seconds, Spent, Summary, Totals};
+
+/// The resolved scene.
+pub const SCENE: &str = "scene.toml";
+/// Records, one a line.
+pub const RECORDS: &str = "run.jsonl";
+/// Steps as a table.
+pub const STEPS: &str = "steps.csv";
+/// Coupling iterations as a table.
+pub const ITERATIONS: &str = "iterations.csv";
+/// Probed values as a table.
+pub const PROBES: &str = "probes.csv";
+/// Counts and times of the whole run.
+pub const SUMMARY: &str = "summary.json";
+
+/// Writes the output folder of a run.
+///
+/// ```no_run
+/// use partita::output::{Clock, Ending, RunWriter};
+/// # fn records() -> Vec<(Vec<partita_coupling::IterationRecord>, partita_coupling::StepRecord)> { vec![] }
+///
+/// let probes = ["tip_y".to_owned()];
+/// let mut writer = RunWriter::create("runs/tank".as_ref(), "title = \"tank\"\n", &probes, Clock::start())?;
+/// for (iterations, step) in records() {
+///     for iteration in &iterations {
+///         writer.iteration(iteration)?;
+///     }
+///     writer.step(&step)?;
+///     writer.probes(step.step, step.time, &[0.1])?;
+/// }
+/// let summary = writer.finish(Ending::Completed)?;
+/// print!("{}", summary.table().to_plain());
+/// # Ok::<(), partita::output::OutputError>(())
+/// ```
+#[derive(Debug)]
+pub struct RunWriter {
+    dir: PathBuf,
+    records: LineFile,
+    iterations: CsvFile<IterationRecord>,
+    steps: CsvFile<StepRecord>,
+    probes: CsvFile<ProbeRow>,
+    probe_count: usize,
+    fields: FieldFiles,
+    totals: Totals,
+    clock: Clock,
+}
+
+impl RunWriter {
+    /// Starts the folder `dir` of a new run: `scene` is the text of its resolved scene, `probes` names the columns of
+    /// `probes.csv`, `clock` has run since the program started.
+    ///
+    /// # Errors
+    /// [`OutputError::Occupied`] when the folder is not empty (see [`remove_run`]), or what the system refuses.
+    pub fn create(dir: &Path, scene: &str, probes: &[String], clock: Clock) -> Result<Self, OutputError> {
+        let refused = |source| OutputError::Write { path: dir.to_owned(), source };
+        fs::create_dir_all(dir).map_err(refused)?;
+        if fs::read_dir(dir).map_err(refused)?.next().is_some() {
+            return Err(OutputError::Occupied { dir: dir.to_owned() });
+        }
+        let path = dir.join(SCENE);
+        fs::write(&path, scene).map_err(|source| OutputError::Write { path, source })?;
+        Ok(Self {
+            dir: dir.to_owned(),
+            records: LineFile::create(dir.join(RECORDS))?,
+            iterations: CsvFile::create(dir.join(ITERATIONS), record::iteration_columns())?,
+            steps: CsvFile::create(dir.join(STEPS), record::step_columns())?,
+            probes: CsvFile::create(dir.join(PROBES), record::probe_columns(probes))?,
+            probe_count: probes.len(),
+            fields: FieldFiles::create(dir)?,
+            totals: Totals::default(),
+            clock,
+        })
+    }
+
+    /// Takes up the folder `dir` at the step of a checkpoint: what was written after it is dropped.
+    ///
+    /// # Errors
+    /// When a file is missing, lacks steps, or is not what a run with these `probes` writes.
+    pub fn resume(
+        dir: &Path,
+        stamp: &Stamp,
+        probes: &[String],
+        mut clock: Clock,
+    ) -> Result<Self, OutputError> {
+        let step = stamp.step;
+        let (records, totals, iteration_lines) = resume_records(dir.join(RECORDS), step)?;
+        let (iterations, iteration_rows) =
+            CsvFile::resume(dir.join(ITERATIONS), record::iteration_columns(), step)?;
+        let (steps, step_rows) = CsvFile::resume(dir.join(STEPS), record::step_columns(), step)?;
+        let (probe_file, _) = CsvFile::resume(dir.join(PROBES), record::probe_columns(probes), step)?;
+        let complete = [
+            (&records, totals.steps == step),
+            (iterations.file(), iteration_rows == iteration_lines),
+            (steps.file(), step_rows == step),
+        ];
+        if let Some((file, _)) = complete.iter().find(|(_, complete)| !complete) {
+            return Err(OutputError::Cut { path: file.path().to_owned(), step });
+        }
+        remove_if_there(&dir.join(SUMMARY))?;
+        clock.go_on_from(stamp.spent);
+        Ok(Self {
+            dir: dir.to_owned(),
+            records,
+            iterations,
+            steps,
+            probes: probe_file,
+            probe_count: probes.len(),
+            fields: FieldFiles::resume(dir, stamp.time)?,
+            totals,
+            clock,
+        })
+    }
+
+    /// Writes a coupling iteration.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn iteration(&mut self, record: &IterationRecord) -> Result<(), OutputError> {
+        self.timed(|run| {
+            run.records.append(&Line::Iteration(record).to_json())?;
+            run.iterations.append(record)
+        })
+    }
+
+    /// Writes a finished step, after its iterations.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn step(&mut self, record: &StepRecord) -> Result<(), OutputError> {
+        self.totals.add(record);
+        self.timed(|run| {
+            run.records.append(&Line::Step(record).to_json())?;
+            run.steps.append(record)
+        })
+    }
+
+    /// Writes the probed values at the end of a step (0: at the start).
+    ///
+    /// # Errors
+    /// What the system refuses.
+    ///
+    /// # Panics
+    /// When there is not a value for each probe.
+    pub fn probes(&mut self, step: usize, time: f64, values: &[f64]) -> Result<(), OutputError> {
+        assert_eq!(values.len(), self.probe_count, "there is a value for each probe");
+        self.timed(|run| run.probes.append(&ProbeRow { step, time, values: values.to_vec() }))
+    }
+
+    /// Writes a field at the end of a step (0: at the start).
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn fields<const D: usize>(
+        &mut self,
+        series: Series,
+        step: usize,
+        time: f64,
+        snapshot: &Snapshot<'_, D>,
+    ) -> Result<(), OutputError> {
+        self.timed(|run| run.fields.write(series, step, time, snapshot))
+    }
+
+    /// The mark of a checkpoint taken now, at the end of a step. Records and tables are on the disk when this returns,
+    /// so that a checkpoint is never ahead of them.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn stamp(&mut self, step: usize, time: f64) -> Result<Stamp, OutputError> {
+        self.timed(|run| {
+            let files = [&run.records, run.iterations.file(), run.steps.file(), run.probes.file()];
+            files.into_iter().try_for_each(LineFile::synchronize)
+        })?;
+        Ok(Stamp { step, time, spent: self.clock.spent() })
+    }
+
+    /// The folder.
+    #[must_use]
+    pub fn dir(&self) -> &Path {
+        &self.dir
+    }
+
+    /// Counts and times of the finished steps.
+    #[must_use]
+    pub fn totals(&self) -> &Totals {
+        &self.totals
+    }
+
+    /// Writes `summary.json` and returns what it says.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn finish(self, ending: Ending) -> Result<Summary, OutputError> {
+        let summary = Summary::new(ending, &self.totals, &self.clock.spent());
+        let path = self.dir.join(SUMMARY);
+        fs::write(&path, summary.to_json()).map_err(|source| OutputError::Write { path, source })?;
+        Ok(summary)
+    }
+
+    fn timed(&mut self, write: impl FnOnce(&mut Self) -> Result<(), OutputError>) -> Result<(), OutputError> {
+        let start = Instant::now();
+        let result = write(self);
+        self.clock.add_output(start.elapsed());
+        result
+    }
+}
+
+/// Cuts the records behind `step`; returns the totals of what is kept, and the number of iterations in it.
+fn resume_records(path: PathBuf, step: usize) -> Result<(LineFile, Totals, usize), OutputError> {
+    let mut totals = Totals::default();
+    let mut iterations = 0;
+    let file = LineFile::resume(path, |_, line| {
+        match serde_json::from_str(line).map_err(|error| error.to_string())? {
+            Record::Iteration(record) if record.step <= step => iterations += 1,
+            Record::Step(record) if record.step <= step => totals.add(&record),
+            _ => return Ok(false),
+        }
+        Ok(true)
+    })?;
+    Ok((file, totals, iterations))
+}
+
+/// Removes what a run has written to `dir`, so that a new one can start there; anything else is left alone, and so is a
+/// folder without records, whose `scene.toml` may be somebody's own.
+///
+/// # Errors
+/// What the system refuses.
+pub fn remove_run(dir: &Path) -> Result<(), OutputError> {
+    if !dir.join(RECORDS).exists() {
+        return Ok(());
+    }
+    let collections = Series::ALL.map(Series::collection);
+    let files = [SCENE, STEPS, ITERATIONS, PROBES, SUMMARY].into_iter().chain(checkpoint::FILES);
+    for name in files.chain(collections.iter().map(String::as_str)) {
+        remove_if_there(&dir.join(name))?;
+    }
+    fields::remove_all(dir)?;
+    // Last: while it is there, what is left is known to be a run's.
+    remove_if_there(&dir.join(RECORDS))
+}

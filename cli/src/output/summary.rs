@@ -1,0 +1,268 @@
+//! What a run came to: counts, times, memory.
+
+use std::time::{Duration, Instant};
+
+use partita_coupling::record::{FieldSeconds, StepRecord};
+use serde::{Deserialize, Serialize};
+
+use super::table::{Cell, Table};
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ending {
+    /// All its steps are done.
+    Completed,
+    /// It was stopped from outside; it can be resumed.
+    Interrupted,
+    /// A step could not be solved.
+    Failed,
+}
+
+/// Counts and times over the finished steps of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Totals {
+    /// Finished steps.
+    pub steps: usize,
+    /// Those among them whose criterion was not met.
+    pub unconverged_steps: usize,
+    /// Coupling iterations.
+    pub coupling_iterations: usize,
+    /// Newton iterations of the fluid.
+    pub newton_fluid: usize,
+    /// Newton iterations of the structure.
+    pub newton_structure: usize,
+    /// Where the solvers' time went; `output` stays zero here.
+    pub seconds: Seconds,
+}
+
+impl Totals {
+    /// Adds a finished step.
+    pub fn add(&mut self, step: &StepRecord) {
+        let newton =
+            |name| step.fields.iter().find(|field| field.name == name).map_or(0, |field| field.newton);
+        self.steps += 1;
+        self.unconverged_steps += usize::from(!step.converged);
+        self.coupling_iterations += step.iterations;
+        self.newton_fluid += newton("fluid");
+        self.newton_structure += newton("structure");
+        for (field, seconds) in step.fields.iter().zip(&step.seconds.fields) {
+            self.seconds.add_field(&field.name, seconds);
+        }
+        self.seconds.transfer += step.seconds.transfer;
+        self.seconds.acceleration += step.seconds.acceleration;
+    }
+}
+
+/// Wall-clock seconds by what was done in them; no second is counted twice.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Seconds {
+    /// Calls of the fluid, mesh motion left out \[s\].
+    pub fluid: f64,
+    /// Calls of the structure \[s\].
+    pub structure: f64,
+    /// Motion of the fluid's mesh \[s\].
+    pub mesh_motion: f64,
+    /// Interface values between the fields \[s\].
+    pub transfer: f64,
+    /// The accelerator \[s\].
+    pub acceleration: f64,
+    /// Records, tables and fields \[s\].
+    pub output: f64,
+}
+
+impl Seconds {
+    fn add_field(&mut self, name: &str, seconds: &FieldSeconds) {
+        let motion = seconds.phases.mesh_motion;
+        self.mesh_motion += motion;
+        match name {
+            "fluid" => self.fluid += seconds.total - motion,
+            "structure" => self.structure += seconds.total - motion,
+            _ => {}
+        }
+    }
+}
+
+/// Cost of a run up to a moment, over all its sessions.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Spent {
+    /// Wall-clock time \[s\].
+    pub wall_seconds: f64,
+    /// Time on processors, all threads \[s\]; where the system does not tell, `None`.
+    pub cpu_seconds: Option<f64>,
+    /// Wall-clock time of writing \[s\].
+    pub output_seconds: f64,
+}
+
+/// Measures the cost of a run, which a resumed run carries on. Start it with the program.
+#[derive(Debug)]
+pub struct Clock {
+    start: Instant,
+    before: Spent,
+}
+
+impl Clock {
+    /// Starts to measure.
+    #[must_use]
+    pub fn start() -> Self {
+        Self { start: Instant::now(), before: Spent { cpu_seconds: Some(0.0), ..Spent::default() } }
+    }
+
+    /// Counts what earlier sessions of the run cost too.
+    pub(super) fn go_on_from(&mut self, before: Spent) {
+        self.before = before;
+    }
+
+    /// Counts time spent on writing.
+    pub(super) fn add_output(&mut self, time: Duration) {
+        self.before.output_seconds += time.as_secs_f64();
+    }
+
+    /// The cost until now. Processor time is that of the whole process.
+    #[must_use]
+    pub fn spent(&self) -> Spent {
+        Spent {
+            wall_seconds: self.before.wall_seconds + self.start.elapsed().as_secs_f64(),
+            cpu_seconds: self.before.cpu_seconds.zip(process_cpu_seconds()).map(|(before, now)| before + now),
+            output_seconds: self.before.output_seconds,
+        }
+    }
+}
+
+/// Processor time of this process, all threads \[s\].
+#[cfg(unix)]
+#[expect(clippy::unnecessary_wraps, reason = "other systems do not tell")]
+fn process_cpu_seconds() -> Option<f64> {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    Some(time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9)
+}
+
+#[cfg(not(unix))]
+fn process_cpu_seconds() -> Option<f64> {
+    None
+}
+
+/// Largest resident memory of this process so far \[bytes\], where the system tells (Linux).
+fn max_resident_bytes() -> Option<u64> {
+    peak_in_status(&std::fs::read_to_string("/proc/self/status").ok()?)
+}
+
+fn peak_in_status(status: &str) -> Option<u64> {
+    let value = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kibibytes: u64 = value.trim().strip_suffix("kB")?.trim_end().parse().ok()?;
+    Some(kibibytes * 1024)
+}
+
+/// `summary.json`. Whatever depends on the machine stands in the last four fields.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Whether the run did not fail and every step met its criterion.
+    pub converged: bool,
+    /// How it ended.
+    pub ending: Ending,
+    /// Finished steps, all sessions.
+    pub steps: usize,
+    /// Coupling iterations of these steps.
+    pub coupling_iterations: usize,
+    /// Newton iterations of the fluid.
+    pub newton_fluid: usize,
+    /// Newton iterations of the structure.
+    pub newton_structure: usize,
+    /// Largest resident memory \[bytes\], of the last session.
+    pub max_resident_bytes: Option<u64>,
+    /// Wall-clock time \[s\], all sessions.
+    pub wall_seconds: f64,
+    /// Time on processors \[s\], all sessions and threads.
+    pub cpu_seconds: Option<f64>,
+    /// Where the time went \[s\].
+    pub seconds: Seconds,
+}
+
+impl Summary {
+    /// The summary of the steps in `totals` that cost `spent`.
+    #[must_use]
+    pub fn new(ending: Ending, totals: &Totals, spent: &Spent) -> Self {
+        Self {
+            converged: ending != Ending::Failed && totals.unconverged_steps == 0,
+            ending,
+            steps: totals.steps,
+            coupling_iterations: totals.coupling_iterations,
+            newton_fluid: totals.newton_fluid,
+            newton_structure: totals.newton_structure,
+            max_resident_bytes: max_resident_bytes(),
+            wall_seconds: spent.wall_seconds,
+            cpu_seconds: spent.cpu_seconds,
+            seconds: Seconds { output: spent.output_seconds, ..totals.seconds },
+        }
+    }
+
+    pub(super) fn to_json(self) -> String {
+        serde_json::to_string_pretty(&self).expect("a summary is plain data") + "\n"
+    }
+
+    /// The table that a run prints at its end.
+    #[must_use]
+    pub fn table(&self) -> Table {
+        let Seconds { fluid, structure, mesh_motion, transfer, acceleration, output } = self.seconds;
+        let mut table = Table::new(["", "total", "per step", "seconds"]);
+        table.push(["steps".into(), self.steps.into(), Cell::Empty, self.wall_seconds.into()]);
+        let mut row = |name: &str, count: Option<usize>, seconds: f64| {
+            let per_step = count.map(|count| count as f64 / self.steps.max(1) as f64);
+            table.push([name.into(), count.into(), per_step.into(), seconds.into()]);
+        };
+        row("coupling iterations", Some(self.coupling_iterations), transfer + acceleration);
+        row("Newton iterations, fluid", Some(self.newton_fluid), fluid);
+        row("Newton iterations, structure", Some(self.newton_structure), structure);
+        row("mesh motion", None, mesh_motion);
+        row("output", None, output);
+        table
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn peak_memory_is_read_from_the_status() {
+        assert_eq!(
+            peak_in_status("Name:\tpartita\nVmHWM:\t   12345 kB\nVmRSS:\t 1 kB\n"),
+            Some(12345 * 1024)
+        );
+        assert_eq!(peak_in_status("Name:\tpartita\n"), None);
+        assert_eq!(peak_in_status("VmHWM:\t 12 MB\n"), None);
+    }
+
+    #[test]
+    fn a_clock_goes_on_from_earlier_sessions() {
+        let before = Spent { wall_seconds: 100.0, cpu_seconds: Some(90.0), output_seconds: 3.0 };
+        let mut clock = Clock::start();
+        clock.go_on_from(before);
+        clock.add_output(Duration::from_millis(500));
+        let spent = clock.spent();
+        assert!(spent.wall_seconds >= 100.0 && spent.wall_seconds < 150.0, "{spent:?}");
+        assert!(spent.cpu_seconds.is_none_or(|cpu| (90.0..150.0).contains(&cpu)), "{spent:?}");
+        assert_eq!(spent.output_seconds.to_bits(), 3.5_f64.to_bits());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn processor_time_grows_with_work() {
+        let before = process_cpu_seconds().expect("unix tells");
+        let mut x = 0.5_f64;
+        while process_cpu_seconds().expect("unix tells") <= before {
+            x = std::hint::black_box(x.sin());
+        }
+        assert!(x.is_finite());
+    }
+
+    #[test]
+    fn a_failed_run_is_not_converged() {
+        let totals = Totals { steps: 3, ..Totals::default() };
+        let converged = |ending, totals: &Totals| Summary::new(ending, totals, &Spent::default()).converged;
+        assert!(converged(Ending::Completed, &totals));
+        assert!(converged(Ending::Interrupted, &totals));
+        assert!(!converged(Ending::Failed, &totals));
+        assert!(!converged(Ending::Completed, &Totals { unconverged_steps: 1, ..totals }));
+    }
+}

@@ -1,0 +1,225 @@
+//! A run from its first step, or its checkpoint, to its end: the time loop, and what is written on the way.
+
+use std::error::Error;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use partita_coupling::{IterationRecord, MarchState, Observer, StepError, StepRecord};
+use partita_fluid::FluidState;
+use partita_structure::StructureState;
+use serde::{Deserialize, Serialize};
+
+use crate::adapt::SlotState;
+use crate::build::{self, BuildError, Run};
+use crate::checkpoint::{self, CheckpointError};
+use crate::draw::Drawing;
+use crate::output::{Clock, Ending, OutputError, RunWriter, Summary};
+use crate::probe::Probes;
+use crate::progress::Progress;
+use crate::scene::schema::Scene;
+
+/// How a run is to be carried out; nothing here changes its numbers.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Options<'a> {
+    /// Stop at the end of this step, if the scene goes on beyond it.
+    pub steps: Option<usize>,
+    /// Draw no progress bar.
+    pub quiet: bool,
+    /// Set from outside to stop at the end of the step.
+    pub stop: Option<&'a AtomicBool>,
+}
+
+/// Why a run could not go on.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The scene cannot be built.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// A step could not be solved; the run's folder holds what was reached.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// The output folder.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The checkpoint.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
+    /// The checkpoint belongs to another scene.
+    #[error(
+        "the checkpoint does not fit the scene beside it: {0}\nhint: the scene of a run must not be changed before it is resumed; start a new run instead"
+    )]
+    Misfit(String),
+}
+
+/// Everything a run remembers between two steps.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct RunState {
+    march: MarchState,
+    fluid: SlotState<FluidState>,
+    structure: SlotState<StructureState>,
+}
+
+/// A run in progress.
+pub struct Session<'a> {
+    run: Run,
+    scene: &'a Scene,
+    probes: Probes,
+    drawing: Drawing,
+    writer: RunWriter,
+    options: Options<'a>,
+}
+
+impl<'a> Session<'a> {
+    /// Builds the run of `scene` and starts its folder `dir`, which must be new or empty; `clock` has run since the
+    /// program started. Nothing is written when the scene cannot be built.
+    ///
+    /// # Errors
+    /// When the scene cannot be built or the folder not be written.
+    pub fn start(
+        scene: &'a Scene,
+        text: &str,
+        dir: &Path,
+        options: Options<'a>,
+        clock: Clock,
+    ) -> Result<Self, RunError> {
+        let run = build::run(scene)?;
+        let probes = Probes::new(&scene.output.probes, &run);
+        let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
+        let mut writer = RunWriter::create(dir, text, probes.columns(), clock)?;
+        if scene.output.fields_every > 0 {
+            drawing.write(&run, &mut writer, 0, 0.0)?;
+        }
+        Ok(Self { run, scene, probes, drawing, writer, options })
+    }
+
+    /// Takes up the run in the folder `dir`, whose scene is `scene`, at its checkpoint.
+    ///
+    /// # Errors
+    /// When there is no usable checkpoint, or the folder does not fit it.
+    pub fn resume(
+        scene: &'a Scene,
+        dir: &Path,
+        options: Options<'a>,
+        clock: Clock,
+    ) -> Result<Self, RunError> {
+        let checkpoint = checkpoint::load::<RunState>(dir)?;
+        let mut run = build::run(scene)?;
+        checkpoint.state.restore(&mut run)?;
+        let probes = Probes::new(&scene.output.probes, &run);
+        let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
+        let writer = RunWriter::resume(dir, &checkpoint.stamp, probes.columns(), clock)?;
+        Ok(Self { run, scene, probes, drawing, writer, options })
+    }
+
+    /// Steps to the end of the scene, or to where the options say, and writes the summary.
+    ///
+    /// A step that fails leaves its iterations, a checkpoint and the fields before it in the folder.
+    ///
+    /// # Errors
+    /// When a step cannot be solved, or the folder not be written.
+    pub fn finish(mut self) -> Result<Summary, RunError> {
+        let last =
+            self.options.steps.map_or(self.scene.time.steps.get(), |s| s.min(self.scene.time.steps.get()));
+        let mut progress = Progress::new(last, self.run.clock().steps, self.options.quiet);
+        let outcome = self.march_to(last, &mut progress);
+        progress.finish();
+        let ending = match &outcome {
+            Ok(ending) => *ending,
+            Err(RunError::Step(_)) => {
+                self.draw()?;
+                Ending::Failed
+            }
+            Err(_) => return Err(outcome.expect_err("just seen")),
+        };
+        if self.scene.output.checkpoint_every > 0 {
+            self.save()?;
+        }
+        let summary = self.writer.finish(ending)?;
+        outcome.map(|_| summary)
+    }
+
+    fn march_to(&mut self, last: usize, progress: &mut Progress) -> Result<Ending, RunError> {
+        while self.run.clock().steps < last {
+            self.step(progress)?;
+            let stop = self.options.stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
+            if stop && self.run.clock().steps < last {
+                return Ok(Ending::Interrupted);
+            }
+        }
+        Ok(Ending::Completed)
+    }
+
+    fn step(&mut self, progress: &mut Progress) -> Result<(), RunError> {
+        let mut watch = Watch { writer: &mut self.writer, progress, refused: None };
+        let result = self.run.step(self.scene.time.step.get(), &mut watch);
+        if let Some(refused) = watch.refused {
+            return Err(refused.into());
+        }
+        let step = result?.step;
+        self.writer.probes(step, self.run.clock().time, &self.probes.values(&self.run))?;
+        let due = |every: usize| every > 0 && step.is_multiple_of(every);
+        if due(self.scene.output.fields_every) {
+            self.draw()?;
+        }
+        if due(self.scene.output.checkpoint_every) {
+            self.save()?;
+        }
+        Ok(())
+    }
+
+    fn draw(&mut self) -> Result<(), OutputError> {
+        let clock = self.run.clock();
+        self.drawing.write(&self.run, &mut self.writer, clock.steps, clock.time)
+    }
+
+    fn save(&mut self) -> Result<(), RunError> {
+        let clock = self.run.clock();
+        let stamp = self.writer.stamp(clock.steps, clock.time)?;
+        Ok(checkpoint::save(self.writer.dir(), &stamp, &RunState::of(&self.run))?)
+    }
+}
+
+impl RunState {
+    /// What `run` remembers now.
+    fn of(run: &Run) -> Self {
+        Self { march: run.state(), fluid: run.first().state(), structure: run.second().state() }
+    }
+
+    /// Puts `run` where this state was taken.
+    fn restore(&self, run: &mut Run) -> Result<(), RunError> {
+        let misfit = |error: &dyn Error| RunError::Misfit(error.to_string());
+        run.restore(&self.march).map_err(|error| misfit(&error))?;
+        let (fluid, structure) = run.participants_mut();
+        fluid.restore(&self.fluid).map_err(|error| misfit(&error))?;
+        structure.restore(&self.structure).map_err(|error| misfit(&error))
+    }
+}
+
+/// Passes what happens inside a step on to files and terminal; keeps the first refusal for after the step.
+struct Watch<'a> {
+    writer: &'a mut RunWriter,
+    progress: &'a mut Progress,
+    refused: Option<OutputError>,
+}
+
+impl Watch<'_> {
+    fn keep(&mut self, result: Result<(), OutputError>) {
+        if let Err(error) = result {
+            self.refused.get_or_insert(error);
+        }
+    }
+}
+
+impl Observer for Watch<'_> {
+    fn iteration(&mut self, record: &IterationRecord) {
+        let written = self.writer.iteration(record);
+        self.keep(written);
+        self.progress.iteration(record);
+    }
+
+    fn step_finished(&mut self, record: &StepRecord) {
+        let written = self.writer.step(record);
+        self.keep(written);
+        self.progress.step(record);
+    }
+}

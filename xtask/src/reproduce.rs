@@ -25,7 +25,7 @@ impl Limit {
     fn in_scene(self) -> String {
         match self {
             Self::AtMost(count) => count.to_string(),
-            Self::ToConvergence => "\"unlimited\"".to_owned(),
+            Self::ToConvergence => "unlimited".to_owned(),
         }
     }
 

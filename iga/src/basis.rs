@@ -157,22 +157,27 @@ impl BasisValues {
     /// Multiplies the one-parameter functions out.
     fn multiply_out(&mut self) {
         let count = self.degrees.map(|degree| degree + 1);
-        // k-th derivative of the function n of parameter i
-        let table = |i: usize, k: usize, n: usize| self.tables[i][k * count[i] + n];
+        let (with_first, with_second) =
+            (self.computed >= Derivatives::First, self.computed == Derivatives::Second);
+        // Value, first and second derivative of function n of parameter i.
+        let jet = |i: usize, n: usize| -> [f64; 3] { [0, 1, 2].map(|k| self.tables[i][k * count[i] + n]) };
         let mut a = 0;
         for c in 0..count[2] {
+            let z = jet(2, c);
             for b in 0..count[1] {
-                for n in (0..count[0]).map(|n| [n, b, c]) {
-                    let product = |order: [usize; MAX_PARAMETERS]| {
-                        table(0, order[0], n[0]) * table(1, order[1], n[1]) * table(2, order[2], n[2])
-                    };
-                    self.values[a] = product([0; MAX_PARAMETERS]);
-                    if self.computed >= Derivatives::First {
-                        self.first[a] = std::array::from_fn(|i| product(unit(i)));
+                let y = jet(1, b);
+                for x in (0..count[0]).map(|n| jet(0, n)) {
+                    self.values[a] = x[0] * y[0] * z[0];
+                    if with_first {
+                        self.first[a] = [x[1] * y[0] * z[0], x[0] * y[1] * z[0], x[0] * y[0] * z[1]];
                     }
-                    if self.computed == Derivatives::Second {
-                        self.second[a] =
-                            std::array::from_fn(|i| std::array::from_fn(|j| product(sum(unit(i), unit(j)))));
+                    if with_second {
+                        let [xy, xz, yz] = [x[1] * y[1] * z[0], x[1] * y[0] * z[1], x[0] * y[1] * z[1]];
+                        self.second[a] = [
+                            [x[2] * y[0] * z[0], xy, xz],
+                            [xy, x[0] * y[2] * z[0], yz],
+                            [xz, yz, x[0] * y[0] * z[2]],
+                        ];
                     }
                     a += 1;
                 }
@@ -233,14 +238,6 @@ impl<const D: usize> Spline<D> {
         let BasisValues { weights, values, .. } = basis;
         nurbs::rationalize(weights, values, &mut basis.first[..first], &mut basis.second[..second]);
     }
-}
-
-fn unit(i: usize) -> [usize; MAX_PARAMETERS] {
-    std::array::from_fn(|k| usize::from(k == i))
-}
-
-fn sum(a: [usize; MAX_PARAMETERS], b: [usize; MAX_PARAMETERS]) -> [usize; MAX_PARAMETERS] {
-    std::array::from_fn(|k| a[k] + b[k])
 }
 
 fn add_scaled<const N: usize>(factor: f64, x: &[f64; N], y: &mut [f64; N]) {

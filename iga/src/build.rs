@@ -92,7 +92,7 @@ fn block<const D: usize>(
 
 /// An arc of a circle in the plane as an exact NURBS of degree 2, with one element for each quarter or part of one.
 ///
-/// It starts at the angle `start` [rad] from the x axis and runs through the angle `sweep` [rad], counter-clockwise
+/// It starts at the angle `start`, in rad, from the x axis and runs through the angle `sweep`, in rad, counter-clockwise
 /// where that is positive. (Piegl and Tiller, *The NURBS Book*, section 7.5.)
 ///
 /// # Errors
@@ -194,7 +194,7 @@ pub enum BuildError {
         "an arc cannot sweep {sweep} rad\nhint: take an angle up to a full turn, 2 pi rad, other than zero"
     )]
     Sweep {
-        /// The angle given [rad].
+        /// The angle given, in rad.
         sweep: f64,
     },
     /// The degree or the number of elements does not make a knot vector.

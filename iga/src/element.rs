@@ -38,18 +38,11 @@ impl Element {
     #[must_use]
     pub fn at<const P: usize>(&self, unit: [f64; P]) -> [f64; P] {
         assert_eq!(P, self.parameters, "a point of an element has one coordinate for each parameter");
-        std::array::from_fn(|i| self.at_along(i, unit[i]))
-    }
-
-    /// [`at`](Self::at) for any number of parameters; missing ones are zero.
-    pub(crate) fn padded_at(&self, unit: [f64; MAX_PARAMETERS]) -> [f64; MAX_PARAMETERS] {
-        std::array::from_fn(|i| self.at_along(i, unit[i]))
-    }
-
-    /// Exact at both ends, unlike `start + unit (end - start)`.
-    fn at_along(&self, parameter: usize, unit: f64) -> f64 {
-        let [start, end] = self.ranges[parameter];
-        (1.0 - unit) * start + unit * end
+        std::array::from_fn(|i| {
+            let [start, end] = self.ranges[i];
+            // Exact at both ends, unlike start + unit (end - start).
+            (1.0 - unit[i]) * start + unit[i] * end
+        })
     }
 }
 

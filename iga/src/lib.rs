@@ -39,3 +39,8 @@ pub use element::Element;
 pub use knots::{KnotError, Knots};
 pub use side::{End, Side, UnknownSide};
 pub use spline::{MAX_PARAMETERS, Spline, SplineError};
+
+/// Runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

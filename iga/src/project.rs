@@ -1,11 +1,12 @@
 //! Closest points.
 
 mod newton;
+mod piece;
 
 use crate::basis::{BasisValues, Derivatives};
-use crate::element::Element;
 use crate::spline::{MAX_PARAMETERS, Spline};
 use newton::Search;
+use piece::Piece;
 
 /// The point of a spline that is closest to a given one.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,28 +41,18 @@ pub fn closest_point<const D: usize>(spline: &Spline<D>, point: &[f64; D]) -> Pr
 
 /// Finds the closest points of one spline to many points.
 ///
-/// Each element lies in the box round its control points (the weights are positive), so an element whose box is
-/// farther away than the best point found cannot hold a better one. In the others a Newton method that stays inside
-/// the element starts from every local minimum of a grid of samples. Where several points are equally close,
-/// the one found first is returned, always the same.
+/// The spline is cut once into pieces that are nearly affine. Each lies in the box round its control points (the weights
+/// are positive), so a piece whose box is farther away than the best point found cannot hold a better one.
+/// In the others Newton's method, kept inside the piece, starts from every local minimum of a few samples. Where
+/// several points are equally close, the one found first is returned, always the same.
 ///
 /// Ends are exact: a point that projects to the end of a parameter gets that end to the last bit, also when round-off
 /// (1e-10 of the parameter's range) says otherwise.
 #[derive(Clone, Debug)]
 pub struct Projector<'a, const D: usize> {
     spline: &'a Spline<D>,
-    candidates: Vec<Candidate<D>>,
-    /// Samples of each element along each parameter, 1 for missing ones.
-    grid: [usize; MAX_PARAMETERS],
+    pieces: Vec<Piece<D>>,
     basis: BasisValues,
-}
-
-/// An element and what decides whether to search it, and from where.
-#[derive(Clone, Debug)]
-struct Candidate<const D: usize> {
-    element: Element,
-    bounds: [[f64; D]; 2],
-    samples: Vec<Sample<D>>,
 }
 
 /// A point of the spline with its parameters; unused ones are zero.
@@ -72,17 +63,10 @@ struct Sample<const D: usize> {
 }
 
 impl<'a, const D: usize> Projector<'a, D> {
-    /// Samples the spline.
+    /// Cuts the spline into pieces.
     #[must_use]
     pub fn new(spline: &'a Spline<D>) -> Self {
-        let mut basis = BasisValues::new(spline);
-        let grid = spline.degrees().map(|degree| 2 * degree + 1);
-        let candidates = spline.elements().map(|element| Candidate {
-            element,
-            bounds: bounding_box(spline, element),
-            samples: units(grid).map(|unit| sample(spline, element, unit, &mut basis)).collect(),
-        });
-        Self { spline, candidates: candidates.collect(), grid, basis }
+        Self { spline, pieces: piece::pieces(spline), basis: BasisValues::new(spline) }
     }
 
     /// The closest point of the spline to `point`.
@@ -92,87 +76,40 @@ impl<'a, const D: usize> Projector<'a, D> {
     #[must_use]
     pub fn closest_point(&mut self, point: &[f64; D]) -> Projection<D> {
         assert!(point.iter().all(|x| x.is_finite()), "the point {point:?} to be projected is not finite");
-        let mut nearest_first: Vec<_> = self
-            .candidates
-            .iter()
-            .map(|candidate| (square_to_box(point, &candidate.bounds), candidate))
-            .collect();
+        let mut nearest_first: Vec<_> =
+            self.pieces.iter().map(|piece| (square_to_box(point, &piece.bounds), piece)).collect();
         nearest_first.sort_by(|(a, _), (b, _)| a.total_cmp(b));
 
         let mut best: Option<(f64, Sample<D>)> = None;
-        for (bound, candidate) in nearest_first {
+        for (bound, piece) in nearest_first {
             if best.is_some_and(|(square, _)| square < bound) {
                 break;
             }
-            let mut search = Search::new(self.spline, candidate.element, *point, &mut self.basis);
-            for start in local_minima(candidate, self.grid, point) {
-                let found = search.descend(start);
-                let square = square_distance(&found.point, point);
+            for start in piece.local_minima(point) {
+                let found = Search::new(&piece.spline, self.spline, *point, &mut self.basis).descend(start);
+                // A piece is the spline up to round-off; the answer is on the spline itself.
+                let found = Sample::at(self.spline, found.xi, &mut self.basis);
+                let square = found.square_distance(point);
                 if best.is_none_or(|(least, _)| square < least) {
                     best = Some((square, found));
                 }
             }
         }
-        let (square, found) = best.expect("a spline has an element, and its samples a smallest distance");
+        let (square, found) = best.expect("a spline has a piece, and its samples a smallest distance");
         let xi = found.xi[..self.spline.parameters()].to_vec();
         Projection { xi, point: found.point, distance: square.sqrt() }
     }
 }
 
-/// Box round the control points that act on an element.
-fn bounding_box<const D: usize>(spline: &Spline<D>, element: Element) -> [[f64; D]; 2] {
-    let mut bounds = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-    for a in spline.active_on(element.index()) {
-        for (c, x) in spline.control_points()[a].iter().enumerate() {
-            bounds[0][c] = bounds[0][c].min(*x);
-            bounds[1][c] = bounds[1][c].max(*x);
-        }
+impl<const D: usize> Sample<D> {
+    fn at(spline: &Spline<D>, xi: [f64; MAX_PARAMETERS], basis: &mut BasisValues) -> Self {
+        spline.basis(&xi[..spline.parameters()], Derivatives::None, basis);
+        Self { xi, point: basis.value_of(spline.control_points()) }
     }
-    bounds
-}
 
-/// Points of the unit cube on a grid, along the first parameter first.
-fn units(grid: [usize; MAX_PARAMETERS]) -> impl Iterator<Item = [f64; MAX_PARAMETERS]> {
-    (0..grid.iter().product()).map(move |index| {
-        let position = [index % grid[0], index / grid[0] % grid[1], index / (grid[0] * grid[1])];
-        std::array::from_fn(|i| match grid[i] {
-            1 => 0.0,
-            count => position[i] as f64 / (count - 1) as f64,
-        })
-    })
-}
-
-fn sample<const D: usize>(
-    spline: &Spline<D>,
-    element: Element,
-    unit: [f64; MAX_PARAMETERS],
-    basis: &mut BasisValues,
-) -> Sample<D> {
-    let xi = element.padded_at(unit);
-    spline.basis_on(element.index(), &xi[..spline.parameters()], Derivatives::None, basis);
-    Sample { xi, point: basis.value_of(spline.control_points()) }
-}
-
-/// Samples none of whose neighbours on the grid is closer to `point`.
-fn local_minima<const D: usize>(
-    candidate: &Candidate<D>,
-    grid: [usize; MAX_PARAMETERS],
-    point: &[f64; D],
-) -> Vec<Sample<D>> {
-    let squares: Vec<f64> = candidate.samples.iter().map(|s| square_distance(&s.point, point)).collect();
-    let strides = [1, grid[0], grid[0] * grid[1]];
-    let is_minimum = |index: usize| {
-        (0..MAX_PARAMETERS).all(|i| {
-            let position = index / strides[i] % grid[i];
-            (position == 0 || squares[index] <= squares[index - strides[i]])
-                && (position + 1 == grid[i] || squares[index] <= squares[index + strides[i]])
-        })
-    };
-    (0..squares.len()).filter(|&index| is_minimum(index)).map(|index| candidate.samples[index]).collect()
-}
-
-fn square_distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
+    fn square_distance(&self, point: &[f64; D]) -> f64 {
+        (0..D).map(|c| (self.point[c] - point[c]).powi(2)).sum()
+    }
 }
 
 fn square_to_box<const D: usize>(point: &[f64; D], [low, high]: &[[f64; D]; 2]) -> f64 {

@@ -98,6 +98,12 @@ impl<const D: usize> Spline<D> {
         spline
     }
 
+    /// One element's part of the spline over a range inside that element, in Bezier form: the blossoms at
+    /// `p - j` times the start and `j` times the end of the range.
+    pub(crate) fn restricted(&self, parameter: usize, range: [f64; 2]) -> Self {
+        self.refined(parameter, restriction(self.knots_of(parameter), range))
+    }
+
     fn knots_of(&self, parameter: usize) -> &Knots {
         self.knots().get(parameter).unwrap_or_else(|| panic!("the spline has no parameter {parameter}"))
     }
@@ -157,6 +163,18 @@ fn insertion(knots: &Knots, new: &[f64]) -> Result<Refinement, KnotError> {
         Row { first: span - degree, coefficients }
     });
     Ok(Refinement { rows: rows.collect(), knots: fine })
+}
+
+fn restriction(knots: &Knots, [start, end]: [f64; 2]) -> Refinement {
+    let degree = knots.degree();
+    let span = knots.span_at(start);
+    let ends = [vec![start; degree + 1], vec![end; degree + 1]].concat();
+    let rows = (0..=degree).map(|j| {
+        let mut coefficients = vec![0.0; degree + 1];
+        bspline::blossom(knots, span, &ends[j + 1..=j + degree], &mut coefficients);
+        Row { first: span - degree, coefficients }
+    });
+    Refinement { rows: rows.collect(), knots: Knots::new(degree, ends).expect("a range has a length") }
 }
 
 fn elevation(knots: &Knots) -> Refinement {

@@ -80,6 +80,14 @@ impl<const D: usize> Spline<D> {
         Ok(Self { knots, control_points, weights, rational })
     }
 
+    /// The spline with other control points, its knots and weights kept: a deformed patch, say.
+    ///
+    /// # Errors
+    /// When the number of control points differs or a coordinate is not finite.
+    pub fn with_control_points(&self, control_points: Vec<[f64; D]>) -> Result<Self, SplineError> {
+        Self::rational(self.knots.clone(), control_points, self.weights.clone())
+    }
+
     /// Number of parameters.
     #[must_use]
     pub fn parameters(&self) -> usize {

@@ -1,25 +1,26 @@
-//! Newton's method for the closest point of one element, between the element's bounds.
+//! Newton's method for the closest point of one piece, between the piece's bounds.
 
-use super::{Sample, square_distance};
+use super::Sample;
 use crate::basis::{BasisValues, Derivatives};
-use crate::element::Element;
+use crate::knots::Knots;
 use crate::nurbs::{Gradient, Hessian};
 use crate::spline::{MAX_PARAMETERS, Spline};
 
 /// An end of the spline is left only for a minimum that is farther away than this share of the parameter's range:
 /// a point that misses a corner by round-off belongs to the corner.
 const STICKINESS: f64 = 1e-10;
-/// A step this small, as a share of the element, changes nothing.
+/// A step this small, as a share of the piece, changes nothing.
 const SMALLEST_STEP: f64 = 1e-15;
-/// Below this share of the element, steps that no longer shrink are round-off.
+/// Below this share of the piece, steps that no longer shrink are round-off.
 const SMALL_STEP: f64 = 1e-8;
 const MAX_ITERATIONS: usize = 60;
 const MAX_HALVINGS: i32 = 20;
 
-/// The search for the point of one element that is closest to `target`.
+/// The search for the point of one piece that is closest to `target`.
 pub(super) struct Search<'a, const D: usize> {
-    spline: &'a Spline<D>,
-    element: Element,
+    piece: &'a Spline<D>,
+    /// The spline that the piece is part of.
+    whole: &'a Spline<D>,
     target: [f64; D],
     basis: &'a mut BasisValues,
 }
@@ -34,12 +35,12 @@ struct Model {
 
 impl<'a, const D: usize> Search<'a, D> {
     pub(super) fn new(
-        spline: &'a Spline<D>,
-        element: Element,
+        piece: &'a Spline<D>,
+        whole: &'a Spline<D>,
         target: [f64; D],
         basis: &'a mut BasisValues,
     ) -> Self {
-        Self { spline, element, target, basis }
+        Self { piece, whole, target, basis }
     }
 
     /// Goes from `at` to a local minimum of the distance.
@@ -66,10 +67,9 @@ impl<'a, const D: usize> Search<'a, D> {
 
     /// With `r = x - q`: `g_i = x_,i . r`, `H_ij = x_,i . x_,j + x_,ij . r`.
     fn model(&mut self, at: &Sample<D>) -> Model {
-        let xi = &at.xi[..self.spline.parameters()];
-        self.spline.basis_on(self.element.index(), xi, Derivatives::Second, self.basis);
-        let first = self.basis.first_of(self.spline.control_points());
-        let second = self.basis.second_of(self.spline.control_points());
+        self.piece.basis(&at.xi[..self.piece.parameters()], Derivatives::Second, self.basis);
+        let first = self.basis.first_of(self.piece.control_points());
+        let second = self.basis.second_of(self.piece.control_points());
         let r = std::array::from_fn(|c| at.point[c] - self.target[c]);
         let metric: Hessian = matrix(|i, j| dot(&first[i], &first[j]));
         let hessian = matrix(|i, j| metric[i][j] + dot(&second[i][j], &r));
@@ -79,41 +79,47 @@ impl<'a, const D: usize> Search<'a, D> {
     /// Which parameters stay: missing ones, and those at a bound beyond which the distance would fall on.
     fn held(&self, at: &Sample<D>, model: &Model) -> [bool; MAX_PARAMETERS] {
         std::array::from_fn(|i| {
-            let Some([start, end]) = self.element.ranges().get(i) else { return true };
-            let [first, last] = self.spline.knots()[i].domain();
+            let Some([start, end]) = self.range(i) else { return true };
+            let [first, last] = self.whole.knots()[i].domain();
             let sticky = STICKINESS * (last - first) * model.metric[i][i];
             let slope = model.gradient[i];
-            let held_at_start = at.xi[i] <= *start && -slope <= if start <= &first { sticky } else { 0.0 };
-            let held_at_end = at.xi[i] >= *end && slope <= if end >= &last { sticky } else { 0.0 };
+            let held_at_start = at.xi[i] <= start && -slope <= if start <= first { sticky } else { 0.0 };
+            let held_at_end = at.xi[i] >= end && slope <= if end >= last { sticky } else { 0.0 };
             held_at_start || held_at_end
         })
     }
 
     /// The longest of the steps `step, step/2, step/4, ...`, cut off at the bounds, that leads closer.
     fn line_search(&mut self, at: &Sample<D>, step: &Gradient) -> Option<Sample<D>> {
-        let square = square_distance(&at.point, &self.target);
+        let square = at.square_distance(&self.target);
+        // Close to the minimum the gain of a full step hides behind the round-off of |x - q|^2.
+        let size = at.square_distance(&[0.0; D]).sqrt() + square.sqrt();
+        let round_off = 4.0 * f64::EPSILON * size * square.sqrt();
         (0..MAX_HALVINGS).find_map(|halvings| {
             let next = self.moved(at, step, 0.5f64.powi(halvings));
-            let gained = square - square_distance(&next.point, &self.target);
-            // Close to the minimum round-off hides the gain of a full step.
-            let closer = gained > 0.0 || halvings == 0 && gained >= -4.0 * f64::EPSILON * square;
-            closer.then_some(next)
+            let gained = square - next.square_distance(&self.target);
+            (gained > 0.0 || halvings == 0 && gained >= -round_off).then_some(next)
         })
     }
 
     fn moved(&mut self, at: &Sample<D>, step: &Gradient, factor: f64) -> Sample<D> {
         let mut xi = at.xi;
-        for (i, [start, end]) in self.element.ranges().iter().enumerate() {
-            xi[i] = (xi[i] + factor * step[i]).clamp(*start, *end);
+        for (i, knots) in self.piece.knots().iter().enumerate() {
+            let [start, end] = knots.domain();
+            xi[i] = (xi[i] + factor * step[i]).clamp(start, end);
         }
-        let parameters = &xi[..self.spline.parameters()];
-        self.spline.basis_on(self.element.index(), parameters, Derivatives::None, self.basis);
-        Sample { xi, point: self.basis.value_of(self.spline.control_points()) }
+        Sample::at(self.piece, xi, self.basis)
     }
 
+    /// Largest entry of a step as a share of the piece.
     fn relative_size(&self, step: &Gradient) -> f64 {
-        let ranges = self.element.ranges().iter();
-        ranges.zip(step).map(|([start, end], step)| step.abs() / (end - start)).fold(0.0, f64::max)
+        let shares = (0..MAX_PARAMETERS)
+            .filter_map(|i| self.range(i).map(|[start, end]| step[i].abs() / (end - start)));
+        shares.fold(0.0, f64::max)
+    }
+
+    fn range(&self, parameter: usize) -> Option<[f64; 2]> {
+        self.piece.knots().get(parameter).map(Knots::domain)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::Sample;
 use crate::basis::BasisValues;
+use crate::knots::Knots;
 use crate::spline::{MAX_PARAMETERS, Spline};
 
 /// A piece is cut where its first derivatives or weights change by more than this share of their size.
@@ -25,10 +26,8 @@ pub(super) struct Piece<const D: usize> {
 pub(super) fn pieces<const D: usize>(spline: &Spline<D>) -> Vec<Piece<D>> {
     let mut basis = BasisValues::new(spline);
     let mut pieces = Vec::new();
-    for element in spline.elements() {
-        let bezier =
-            (0..spline.parameters()).fold(spline.clone(), |part, i| part.restricted(i, element.ranges()[i]));
-        let mut uncut = vec![(bezier, [0; MAX_PARAMETERS])];
+    for element in elements(spline) {
+        let mut uncut = vec![(element, [0; MAX_PARAMETERS])];
         while let Some((part, mut cuts)) = uncut.pop() {
             if let Some(parameter) = worst_parameter(&part, cuts) {
                 cuts[parameter] += 1;
@@ -39,6 +38,18 @@ pub(super) fn pieces<const D: usize>(spline: &Spline<D>) -> Vec<Piece<D>> {
         }
     }
     pieces
+}
+
+/// Each element as a spline of its own.
+fn elements<const D: usize>(spline: &Spline<D>) -> Vec<Spline<D>> {
+    let mut parts = vec![spline.clone()];
+    for (i, knots) in spline.knots().iter().enumerate() {
+        let slices = |part: &Spline<D>| -> Vec<Spline<D>> {
+            (0..knots.element_count()).map(|e| part.restricted(i, knots.element(e))).collect()
+        };
+        parts = parts.iter().flat_map(slices).collect();
+    }
+    parts
 }
 
 impl<const D: usize> Piece<D> {
@@ -71,6 +82,13 @@ fn halves<const D: usize>(part: &Spline<D>, parameter: usize) -> [Spline<D>; 2] 
     [[start, middle], [middle, end]].map(|range| part.restricted(parameter, range))
 }
 
+/// Whether there is a number between the ends of a parameter.
+fn has_middle(knots: &Knots) -> bool {
+    let [start, end] = knots.domain();
+    let middle = 0.5 * (start + end);
+    start < middle && middle < end
+}
+
 /// The parameter along which a one-element spline is farthest from affine, if that is worth a cut.
 fn worst_parameter<const D: usize>(part: &Spline<D>, cuts: [usize; MAX_PARAMETERS]) -> Option<usize> {
     let points = Grid { shape: part.shape(), entries: part.control_points().to_vec() };
@@ -80,7 +98,8 @@ fn worst_parameter<const D: usize>(part: &Spline<D>, cuts: [usize; MAX_PARAMETER
         derivatives.map(|first| first.relative_change(j)).fold(weights.relative_change(j), f64::max)
     };
     let changes: Vec<f64> = (0..part.parameters()).map(change).collect();
-    let worth_it = (0..changes.len()).filter(|&i| cuts[i] < MAX_CUTS && changes[i] > LARGEST_CHANGE);
+    let can_cut = |i: usize| cuts[i] < MAX_CUTS && has_middle(&part.knots()[i]);
+    let worth_it = (0..changes.len()).filter(|&i| changes[i] > LARGEST_CHANGE && can_cut(i));
     worth_it.max_by(|&i, &j| changes[i].total_cmp(&changes[j]))
 }
 

@@ -171,6 +171,15 @@ fn a_surface_that_collapses_to_a_pole_is_no_obstacle() {
 }
 
 #[test]
+fn an_element_without_a_number_inside_is_no_obstacle() {
+    let [a, b] = [0.5, 0.5 + 0.5 * f64::EPSILON];
+    let knots = Knots::new(2, vec![0.0, 0.0, 0.0, a, a, b, b, 1.0, 1.0, 1.0]).unwrap();
+    let points = vec![[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.5], [2.0, 1.0], [1.0, 1.0], [0.0, 1.0]];
+    let curve = Spline::new(vec![knots], points).unwrap();
+    assert!((closest_point(&curve, &[3.0, 0.5]).distance - 1.25f64.sqrt()).abs() < 1e-15);
+}
+
+#[test]
 fn the_end_of_a_curve_is_a_point_like_any_other_side() {
     let (tip, _) = build::line([0.0, 0.0], [3.0, 0.0], 2, 2).unwrap().side(Side::RIGHT);
     let projection = closest_point(&tip, &[3.0, 4.0]);

@@ -150,6 +150,15 @@ fn another_version_and_another_file_are_named() {
 }
 
 #[test]
+fn a_byte_moved_from_the_stamp_to_the_state_is_found() {
+    let error = load_changed(|bytes| {
+        bytes[12] -= 1;
+        bytes[16] += 1;
+    });
+    assert!(matches!(error, Err(CheckpointError::WrongChecksum { .. })), "{error:?}");
+}
+
+#[test]
 fn a_monstrous_length_is_refused_before_it_is_believed() {
     let error = load_changed(|bytes| bytes[16..24].fill(0xff)).expect_err("a wrong length");
     assert!(matches!(error, CheckpointError::WrongLength { expected: u64::MAX, .. }), "{error}");

@@ -26,7 +26,7 @@ fn field(name: &str, limit: NewtonLimit, newton: usize, change: f64) -> FieldRec
         newton,
         assemblies: newton + 1,
         factorizations: newton,
-        solves: newton,
+        solves: newton + 4,
         entry_residual: 1.0 / 3.0,
         residual: 1e-11,
         changes: vec![Change::new("velocity", change), Change::new("pressure", change / 2.0)],
@@ -185,7 +185,7 @@ fn tables_say_what_the_records_say() {
     fluid_newton  2  2
     fluid_assemblies  3  3
     fluid_factorizations  2  2
-    fluid_solves  2  2
+    fluid_solves  6  6
     fluid_entry_residual  0.3333333333333333  0.3333333333333333
     fluid_exit_residual  1e-11  1e-11
     fluid_change  0.001  0.001
@@ -193,7 +193,7 @@ fn tables_say_what_the_records_say() {
     structure_newton  1  0
     structure_assemblies  2  1
     structure_factorizations  1  0
-    structure_solves  1  0
+    structure_solves  5  4
     structure_entry_residual  0.3333333333333333  0.3333333333333333
     structure_exit_residual  1e-11  1e-11
     structure_change  1e-6  1e-6
@@ -225,12 +225,12 @@ fn tables_say_what_the_records_say() {
     fluid_newton  4
     fluid_assemblies  6
     fluid_factorizations  4
-    fluid_solves  4
+    fluid_solves  12
     structure_calls  2
     structure_newton  1
     structure_assemblies  3
     structure_factorizations  1
-    structure_solves  1
+    structure_solves  9
     fluid_seconds  2.0
     fluid_assembly_seconds  0.25
     fluid_factorization_seconds  0.125
@@ -294,6 +294,34 @@ fn a_resumed_run_writes_the_same_bytes_but_for_times() {
     };
     assert_eq!(counts(&summary), counts(&expected));
     assert_eq!(counts(&summary), (true, 6, 21, 42, 12));
+}
+
+#[test]
+fn half_a_line_right_behind_the_checkpoint_is_dropped() {
+    let (whole, killed) = (tempfile::tempdir().expect("a folder"), tempfile::tempdir().expect("a folder"));
+    let mut stamps = [&whole, &killed].map(|dir| {
+        let mut writer = create(dir.path());
+        write_steps(&mut writer, 1..=2, 1.0);
+        writer.stamp(2, DT * 2.0).expect("synchronized")
+    });
+    for (name, half) in [
+        ("run.jsonl", "{\"iteration\":{\"st"),
+        ("iterations.csv", "3,1,0."),
+        ("steps.csv", "3"),
+        ("probes.csv", "2"),
+    ] {
+        let path = killed.path().join(name);
+        let text = fs::read_to_string(&path).expect("text");
+        fs::write(&path, text + half).expect("half a line");
+    }
+    stamps[1].spent.wall_seconds += 1000.0;
+    let mut writer = RunWriter::resume(killed.path(), &stamps[1], &probes(), Clock::start()).expect("a run");
+    assert_eq!(without_times(whole.path()), without_times(killed.path()));
+
+    write_steps(&mut writer, 3..=3, 1.0);
+    let summary = writer.finish(Ending::Completed).expect("written");
+    assert_eq!(summary.steps, 3);
+    assert!(summary.wall_seconds > 1000.0, "earlier sessions count");
 }
 
 #[test]

@@ -1,0 +1,212 @@
+//! The tank with an elastic bottom, end to end: the real solvers, the coupling, the folder of a run.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use insta::assert_snapshot;
+use partita::build::{self, Run};
+use partita::output::{Clock, Ending};
+use partita::scene::schema::Scene;
+use partita::scene::{self, Resolved};
+use partita::session::{Options, RunError, Session};
+use partita_coupling::conformance::{ParticipantCheck, check_participant};
+use partita_coupling::{IterationRecord, Participant, Record, Step};
+use serde_json::Value;
+
+fn tank(overrides: &[&str]) -> Resolved {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/elastic-bottom");
+    let overrides: Vec<String> = overrides.iter().map(|&given| given.to_owned()).collect();
+    scene::load(&folder, &overrides).expect("the shipped scene is sound")
+}
+
+fn limits(fluid: &str, structure: &str) -> [String; 2] {
+    [
+        format!("coupling.newton.fixed.fluid={fluid}"),
+        format!("coupling.newton.fixed.structure={structure}"),
+    ]
+}
+
+/// Steps a run and returns its records.
+fn records(run: &mut Run, scene: &Scene, steps: usize) -> Vec<Record> {
+    let mut records = Vec::new();
+    for _ in 0..steps {
+        run.step(scene.time.step.get(), &mut records).expect("the step converges");
+    }
+    records
+}
+
+fn iterations(records: &[Record]) -> impl Iterator<Item = &IterationRecord> {
+    records.iter().filter_map(|record| match record {
+        Record::Iteration(iteration) => Some(iteration),
+        Record::Step(_) => None,
+    })
+}
+
+#[test]
+fn first_steps_of_the_tank_cost_what_they_did() {
+    let mut table = String::from("N^f N^s  coupling  fluid  structure\n");
+    for (fluid, structure) in [("1", "1"), ("unlimited", "unlimited"), ("2", "3"), ("unlimited", "1")] {
+        let [of_fluid, of_structure] = limits(fluid, structure);
+        let scene = tank(&[&of_fluid, &of_structure]).scene;
+        let records = records(&mut build::run(&scene).expect("the scene builds"), &scene, 5);
+        let newton = |field: usize| iterations(&records).map(|k| k.fields[field].newton).sum::<usize>();
+        let coupling = iterations(&records).count();
+        table += &format!("{fluid} {structure}: {coupling} {} {}\n", newton(0), newton(1));
+    }
+    assert_snapshot!(table, @"");
+}
+
+#[test]
+fn no_call_exceeds_its_newton_limit_and_a_converged_structure_costs_nothing() {
+    let [fluid, structure] = limits("2", "3");
+    let scene = tank(&[&fluid, &structure]).scene;
+    let records = records(&mut build::run(&scene).expect("the scene builds"), &scene, 3);
+    let mut free_calls = 0;
+    for iteration in iterations(&records) {
+        let [fluid, structure] = &iteration.fields;
+        assert!((1..=2).contains(&fluid.newton), "a lagged fluid call costs one iteration at least");
+        assert!(structure.newton <= 3);
+        assert_eq!(structure.newton == 0, structure.entry_converged);
+        free_calls += usize::from(structure.newton == 0);
+    }
+    assert!(free_calls > 0, "some structure call enters converged");
+}
+
+#[test]
+fn virtual_work_is_kept_between_the_meshes() {
+    let scene = tank(&[]).scene;
+    let mut run = build::run(&scene).expect("the scene builds");
+    for iteration in iterations(&records(&mut run, &scene, 3)) {
+        assert!(iteration.work_defect < 1e-13, "work defect {:e}", iteration.work_defect);
+    }
+}
+
+#[test]
+fn gravity_rests_on_the_bottom_at_the_first_instant_of_a_stiff_tank() {
+    // A bottom that hardly gives way carries the weight of the fluid, rho g L H = 9810 N/m, but for what hangs on the
+    // walls by viscosity; with slip walls nothing does.
+    let scene = tank(&[
+        "structure.material.saint_venant_kirchhoff.young_modulus=1e15",
+        "fluid.boundary.left=slip",
+        "fluid.boundary.right=slip",
+        "fluid.newton.tolerance={relative=1e-10}",
+        "structure.newton.tolerance={relative=1e-8}",
+    ])
+    .scene;
+    let mut run = build::run(&scene).expect("the scene builds");
+    records(&mut run, &scene, 1);
+    let fluid = run.first().field().expect("the tank has a fluid");
+    let [x, y] = fluid.force_on("bottom").expect("the tank has a bottom");
+    assert!((y + 9810.0).abs() < 1e-4 && x.abs() < 1e-4, "force ({x}, {y}) N/m");
+}
+
+#[test]
+fn both_solvers_keep_the_contract_of_a_participant() {
+    let scene = tank(&[
+        "fluid.newton={tolerance={relative=1e-11},check=before}",
+        "structure.newton={tolerance={relative=1e-11}}",
+        "fluid.tangent=full",
+    ])
+    .scene;
+    let mut run = build::run(&scene).expect("the scene builds");
+    let step = Step { index: 1, time: 0.01, dt: 0.01 };
+    let (fluid, structure) = run.participants_mut();
+    let sag = |depth: f64| -> Vec<f64> {
+        let points = fluid.input()[0].points;
+        let shape = |i: usize| (std::f64::consts::PI * i as f64 / (points - 1) as f64).sin();
+        (0..points).flat_map(|i| [0.0, -depth * shape(i)]).collect()
+    };
+    let inputs = [sag(1e-3), sag(-2e-3)];
+    let load = |force: f64| vec![force; structure.input()[0].len()];
+    let loads = [load(-10.0), load(30.0)];
+    check_participant(fluid, &ParticipantCheck { step, inputs, tolerance: 1e-7 }).expect("the fluid keeps the contract");
+    check_participant(structure, &ParticipantCheck { step, inputs: loads, tolerance: 1e-7 })
+        .expect("the structure keeps the contract");
+}
+
+#[test]
+fn reaching_the_iteration_bound_fails_the_run_and_keeps_its_history() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let dir = folder.path().join("run");
+    let tank = tank(&["coupling.max_iterations=3", "output.fields_every=0"]);
+    let error = start(&tank, &dir, None).finish().expect_err("three iterations are too few");
+    assert!(matches!(error, RunError::Step(_)));
+    let message = error.to_string();
+    assert!(message.starts_with("step 1 (t = 0.01 s), coupling iteration 3, "), "{message}");
+    let lines = fs::read_to_string(dir.join("run.jsonl")).expect("the history is there");
+    assert_eq!(lines.lines().count(), 3);
+    let summary = json(&dir.join("summary.json"));
+    assert_eq!((&summary["converged"], &summary["steps"]), (&Value::Bool(false), &Value::from(0)));
+}
+
+#[test]
+fn a_resumed_run_equals_the_uninterrupted_one() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
+    let [fluid, structure] = limits("2", "3");
+    let tank = tank(&[&fluid, &structure, "time.steps=9", "output.checkpoint_every=4", "output.fields_every=3"]);
+    start(&tank, &whole, None).finish().expect("the whole run converges");
+    start(&tank, &parts, Some(6)).finish().expect("the first part converges");
+    // A killed run has written beyond its checkpoint: the records of step 6 and a line that broke off. It goes on
+    // from step 4.
+    fs::rename(parts.join("checkpoint.previous.bin"), parts.join("checkpoint.bin")).expect("a checkpoint");
+    let half = fs::read_to_string(parts.join("run.jsonl")).expect("records") + "{\"iteration\":{\"st";
+    fs::write(parts.join("run.jsonl"), half).expect("a broken line");
+    let clock = Clock::start();
+    let options = Options { quiet: true, ..Options::default() };
+    let resumed = Session::resume(&tank.scene, &parts, options, clock).expect("it can be resumed");
+    assert_eq!(resumed.finish().expect("the rest converges").steps, 9);
+    for name in ["run.jsonl", "iterations.csv", "steps.csv", "probes.csv", "scene.toml", "fluid.pvd"] {
+        let timeless = |dir: &Path| without_times(&dir.join(name));
+        assert_eq!(timeless(&whole), timeless(&parts), "{name}");
+    }
+    for name in ["fields/fluid-000009.vtu", "fields/structure-000009.vtu"] {
+        assert!(fs::read(whole.join(name)).expect(name) == fs::read(parts.join(name)).expect(name), "{name}");
+    }
+}
+
+#[test]
+fn one_field_alone_runs_in_the_same_loop() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("scene.toml");
+    let mut tank = tank(&["output.probes={}"]);
+    tank.scene.structure = None;
+    tank.scene.coupling = None;
+    let alone = tank.to_toml().replace("bottom = \"interface\"", "bottom = \"no_slip\"");
+    fs::write(&path, alone).expect("a scene file");
+    let alone = scene::load(&path, &["output.fields_every=0".to_owned()]).expect("a fluid alone is a scene");
+    let summary = start(&alone, &folder.path().join("run"), Some(3)).finish().expect("it runs");
+    assert_eq!((summary.steps, summary.coupling_iterations, summary.newton_structure), (3, 3, 0));
+    assert_eq!(summary.ending, Ending::Completed);
+}
+
+fn start<'a>(tank: &'a Resolved, dir: &Path, steps: Option<usize>) -> Session<'a> {
+    let options = Options { steps, quiet: true, stop: None };
+    Session::start(&tank.scene, &tank.to_toml(), dir, options, Clock::start()).expect("the run starts")
+}
+
+fn json(path: &PathBuf) -> Value {
+    serde_json::from_str(&fs::read_to_string(path).expect("a file")).expect("JSON")
+}
+
+/// A file's lines without what depends on the machine: objects `seconds`, columns that end in `_seconds`.
+fn without_times(path: &Path) -> Vec<String> {
+    let text = fs::read_to_string(path).expect("a text file");
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("jsonl") => text.lines().map(without_seconds).collect(),
+        Some("csv") => {
+            let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+            let header = rows.next().expect("a header");
+            let kept: Vec<usize> = (0..header.len()).filter(|&i| !header[i].ends_with("_seconds")).collect();
+            rows.map(|row| kept.iter().map(|&i| row[i]).collect::<Vec<_>>().join(",")).collect()
+        }
+        _ => text.lines().map(str::to_owned).collect(),
+    }
+}
+
+fn without_seconds(line: &str) -> String {
+    let mut record: Value = serde_json::from_str(line).expect("a record");
+    let inner = record.as_object_mut().and_then(|record| record.values_mut().next());
+    inner.and_then(Value::as_object_mut).expect("one object").remove("seconds").expect("times");
+    record.to_string()
+}

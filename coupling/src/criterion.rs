@@ -94,3 +94,79 @@ impl Criterion {
 fn changes_below(field: &FieldRecord, tolerance: f64) -> bool {
     !field.changes.is_empty() && field.changes.iter().all(|change| change.value < tolerance)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::participant::Step;
+    use crate::record::samples::history;
+
+    const CHANGES: Criterion = Criterion::Changes { tolerance: 1e-5 };
+
+    #[test]
+    fn changes_must_all_be_below_the_tolerance() {
+        assert!(CHANGES.holds(&history([9e-6, 0.0], false, true)));
+        assert!(!CHANGES.holds(&history([1e-5, 0.0], false, true)));
+        assert!(!CHANGES.holds(&history([0.0, 2e-5], false, true)));
+        assert!(!CHANGES.holds(&history([0.0, f64::NAN], false, true)));
+        let mut silent = history([0.0, 0.0], false, true);
+        silent.iterations[0].fields[1].changes.clear();
+        assert!(!CHANGES.holds(&silent), "a field without changes has said nothing");
+    }
+
+    #[test]
+    fn step_goes_on_while_a_field_misses_its_own_bound() {
+        let mut open = history([0.0, 0.0], false, true);
+        assert!(CHANGES.ends_step(&open));
+        open.iterations[0].fields[1].converged = false;
+        assert!(CHANGES.holds(&open) && !CHANGES.ends_step(&open));
+    }
+
+    #[test]
+    fn entry_residuals_ask_every_field() {
+        assert!(Criterion::EntryResiduals.holds(&history([1.0, 1.0], true, true)));
+        let mut one = history([0.0, 0.0], true, true);
+        one.iterations[0].fields[0].entry_converged = false;
+        assert!(!Criterion::EntryResiduals.holds(&one));
+    }
+
+    #[test]
+    fn interface_residual_is_absolute_or_relative() {
+        let history = history([1.0, 1.0], false, true);
+        for (bound, expected) in [
+            (Bound::Absolute(0.26), true),
+            (Bound::Absolute(0.25), false),
+            (Bound::Relative(0.126), true),
+            (Bound::Relative(0.125), false),
+        ] {
+            assert_eq!(Criterion::InterfaceResidual(bound).holds(&history), expected, "{bound:?}");
+        }
+    }
+
+    #[test]
+    fn combinations_are_conjunction_and_disjunction() {
+        let history = history([1e-6, 1e-6], false, true);
+        let (yes, no) = (CHANGES, Criterion::EntryResiduals);
+        assert!(Criterion::Any(vec![no.clone(), yes.clone()]).holds(&history));
+        assert!(!Criterion::All(vec![no.clone(), yes.clone()]).holds(&history));
+        assert!(Criterion::All(vec![yes.clone(), yes]).holds(&history));
+        assert!(!Criterion::Any(vec![no]).holds(&history));
+        assert!(!Criterion::All(vec![]).holds(&history), "nothing asked is nothing shown");
+    }
+
+    #[test]
+    fn nothing_holds_before_the_first_iteration() {
+        let empty = StepHistory::new(Step { index: 1, time: 0.1, dt: 0.1 });
+        let all = [CHANGES, Criterion::EntryResiduals, Criterion::InterfaceResidual(Bound::Absolute(1e9))];
+        assert!(all.iter().all(|criterion| !criterion.ends_step(&empty)));
+    }
+
+    #[test]
+    fn criterion_is_blind_to_the_number_of_iterations() {
+        let mut long = history([1.0, 1.0], false, true);
+        for _ in 0..1000 {
+            long.iterations.push(long.iterations[0].clone());
+        }
+        assert!(!CHANGES.holds(&long) && !Criterion::EntryResiduals.holds(&long));
+    }
+}

@@ -60,7 +60,7 @@ impl Error for ParticipantError {
 }
 
 /// A step could not be finished. Both fields are back at the committed state, so it can be tried again.
-#[derive(Debug, Error)]
+#[derive(Error)]
 #[error("step {} (t = {} s), {}{cause}", step.index, step.time, place(*iteration))]
 pub struct StepError {
     /// The step that failed.
@@ -72,6 +72,18 @@ pub struct StepError {
     pub cause: Box<StepFailure>,
     /// The finished iterations of the step.
     pub history: Box<StepHistory>,
+}
+
+/// Without the history's contents, which may be long.
+impl fmt::Debug for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("StepError")
+            .field("step", &self.step)
+            .field("iteration", &self.iteration)
+            .field("cause", &self.cause)
+            .field("history", &format_args!("{} iterations", self.history.iterations.len()))
+            .finish()
+    }
 }
 
 fn place(iteration: usize) -> String {

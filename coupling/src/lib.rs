@@ -15,6 +15,32 @@
 //!
 //! The interface unknown is `x`, the output of the second participant (displacement). One coupling
 //! iteration is one call of both participants; its residual is `r = x_tilde - x`.
+//!
+//! ```
+//! use partita_coupling::models::tube::Tube;
+//! use partita_coupling::{
+//!     Acceleration, AtLimit, CouplingSettings, Criterion, IdentityTransfer, March, NewtonLimit, Policy,
+//!     Predictor, QuasiNewton,
+//! };
+//!
+//! let settings = CouplingSettings {
+//!     acceleration: Acceleration::IqnImvls(QuasiNewton::default()),
+//!     policy: Policy::Fixed { first: NewtonLimit::AtMost(1), second: NewtonLimit::AtMost(1) },
+//!     criterion: Criterion::Changes { tolerance: 1e-5 },
+//!     predictor: Predictor::Linear,
+//!     max_iterations: 100,
+//!     at_limit: AtLimit::Fail,
+//! };
+//! let tube = Tube::default();
+//! let (flow, wall) = tube.participants()?;
+//! let transfer = IdentityTransfer::new(tube.cells);
+//! let mut march = March::new(flow, wall, vec![Box::new(transfer)], &settings, 0.0)?;
+//! for _ in 0..5 {
+//!     let record = march.step(1e-3, &mut ())?;
+//!     println!("t = {} s: {} coupling iterations", record.time, record.iterations);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod accelerate;
 pub mod conformance;

@@ -129,3 +129,43 @@ impl NewtonPolicy for Policy {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::participant::Step;
+    use crate::record::samples::history;
+
+    fn empty() -> StepHistory {
+        StepHistory::new(Step { index: 1, time: 0.1, dt: 0.1 })
+    }
+
+    #[test]
+    fn fixed_limits_never_change() {
+        let (first, second) = (NewtonLimit::AtMost(2), NewtonLimit::ToConvergence);
+        let mut policy = Policy::Fixed { first, second };
+        for history in [empty(), history([0.0, 0.0], true, true), history([1.0, 1.0], false, false)] {
+            assert_eq!(policy.limits(&history), Limits { first, second });
+        }
+    }
+
+    #[test]
+    fn until_coupled_opens_the_limit_when_all_changes_are_small_and_closes_it_again() {
+        let mut policy = Policy::UntilCoupled { at_most: 3, tolerance: 1e-5 };
+        let (closed, open) = (Limits::both(NewtonLimit::AtMost(3)), Limits::both(NewtonLimit::ToConvergence));
+        assert_eq!(policy.limits(&empty()), closed);
+        // Whether the fields meet their own bounds does not matter: that is what the open limit is for.
+        let mut course = history([1e-6, 1e-6], false, false);
+        assert_eq!(policy.limits(&course), open);
+        course.iterations.push(history([1e-6, 1e-4], false, true).iterations.remove(0));
+        assert_eq!(policy.limits(&course), closed);
+    }
+
+    #[test]
+    fn converged_interface_data_watches_the_output() {
+        let mut policy = Policy::ConvergedInterfaceData { tolerance: 1e-4 };
+        let expected = Limits::both(NewtonLimit::UntilOutputSettles { tolerance: 1e-4 });
+        assert_eq!(policy.limits(&empty()), expected);
+        assert_eq!(policy.limits(&history([0.0, 0.0], true, true)), expected);
+    }
+}

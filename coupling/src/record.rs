@@ -258,3 +258,84 @@ pub(crate) mod finite_or_null {
         Ok(Option::<f64>::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
     }
 }
+
+#[cfg(test)]
+pub(crate) mod samples {
+    use super::*;
+
+    /// A step after one iteration in which both fields changed by `changes`.
+    pub(crate) fn history(changes: [f64; 2], entry_converged: bool, converged: bool) -> StepHistory {
+        let mut history = StepHistory::new(Step { index: 1, time: 0.01, dt: 0.01 });
+        let field = |name: &str, part: &'static str, value: f64| {
+            let effort = Effort {
+                newton: 2,
+                assemblies: 3,
+                factorizations: 2,
+                solves: 2,
+                entry_residual: 0.5,
+                residual: 1e-12,
+                entry_converged,
+                converged,
+                changes: vec![Change::new(part, value)],
+                time: PhaseTimes::default(),
+            };
+            FieldRecord::new(name, NewtonLimit::AtMost(2), effort)
+        };
+        history.iterations.push(IterationRecord {
+            step: 1,
+            iteration: 1,
+            residual: 0.25,
+            relative_residual: 0.125,
+            work_defect: 0.0,
+            fields: [field("fluid", "velocity", changes[0]), field("structure", "displacement", changes[1])],
+            acceleration: Some(Proposal::relaxation(0.5)),
+            seconds: Seconds::default(),
+        });
+        history
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn iteration_is_one_line_with_a_fixed_order_of_fields() {
+        let history = samples::history([0.5, 0.25], false, true);
+        let line = serde_json::to_string(&Record::Iteration(history.iterations[0].clone())).unwrap();
+        let broken = ["{\"name", "\"changes", "\"acceleration\":{", "\"seconds", "{\"total"]
+            .iter()
+            .fold(line, |line, start| line.replace(start, &format!("\n{start}")));
+        insta::assert_snapshot!(broken, @r#"
+        {"iteration":{"step":1,"iteration":1,"residual":0.25,"relative_residual":0.125,"work_defect":0.0,"fields":[
+        {"name":"fluid","limit":{"at_most":2},"newton":2,"assemblies":3,"factorizations":2,"solves":2,"entry_residual":0.5,"residual":1e-12,"entry_converged":false,"converged":true,
+        "changes":[{"part":"velocity","value":0.5}]},
+        {"name":"structure","limit":{"at_most":2},"newton":2,"assemblies":3,"factorizations":2,"solves":2,"entry_residual":0.5,"residual":1e-12,"entry_converged":false,"converged":true,
+        "changes":[{"part":"displacement","value":0.25}]}],
+        "acceleration":{"omega":0.5,"columns":0,"dropped":[]},
+        "seconds":{"fields":[
+        {"total":0.0,"phases":{"assembly":0.0,"factorization":0.0,"solve":0.0,"mesh_motion":0.0}},
+        {"total":0.0,"phases":{"assembly":0.0,"factorization":0.0,"solve":0.0,"mesh_motion":0.0}}],"transfer":0.0,"acceleration":0.0}}}
+        "#);
+    }
+
+    #[test]
+    fn step_sums_its_iterations() {
+        let mut history = samples::history([0.5, 0.25], false, true);
+        history.iterations.push(history.iterations[0].clone());
+        history.iterations[1].seconds.transfer = 2.0;
+        let record = StepRecord::new(&history, true);
+        assert_eq!((record.iterations, record.fields[0].newton, record.fields[1].assemblies), (2, 4, 6));
+        assert_eq!(record.fields[1].name, "structure");
+        assert_eq!(record.seconds.transfer.to_bits(), 2.0_f64.to_bits());
+        assert_eq!(record.without_seconds().seconds, Seconds::default());
+    }
+
+    #[test]
+    fn infinite_change_survives_json() {
+        let record = samples::history([f64::INFINITY, 0.0], false, true).iterations.remove(0);
+        let line = serde_json::to_string(&record).unwrap();
+        assert!(line.contains("{\"part\":\"velocity\",\"value\":null}"));
+        assert_eq!(serde_json::from_str::<IterationRecord>(&line).unwrap(), record);
+    }
+}

@@ -113,3 +113,109 @@ fn drop_small(qr: &mut Qr, limit: f64) -> Vec<Dropped> {
     dropped.sort_by_key(|&(index, _)| index);
     dropped
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Columns that are newest first: an old copy of the newest, slightly disturbed, among independent ones.
+    fn columns() -> VecDeque<Column> {
+        let v = |entries: [f64; 5]| Column { v: entries.to_vec(), w: vec![0.0; 5], jv: vec![] };
+        VecDeque::from([
+            v([1.0, 2.0, 0.0, 0.0, 0.5]),
+            v([0.0, 1.0, 3.0, 0.0, 0.0]),
+            v([2.0, 4.0, 0.0, 1e-3, 1.0]),
+            v([0.0, 0.0, 0.0, 5.0, 1.0]),
+        ])
+    }
+
+    /// Lets the columns come one after the other, as in a run; returns what is dropped with the last one.
+    fn admit(filter: Filter, columns: &VecDeque<Column>) -> (Vec<Dropped>, Qr) {
+        let mut qr = Qr::default();
+        let mut known = VecDeque::new();
+        let mut dropped = Vec::new();
+        for column in columns.iter().rev() {
+            known.push_front(column.clone());
+            dropped = filter.admit_newest(&mut qr, &known);
+            for &(index, _) in dropped.iter().rev() {
+                known.remove(index);
+            }
+            assert_eq!(qr.len(), known.len());
+        }
+        (dropped, qr)
+    }
+
+    #[test]
+    fn dependent_old_column_is_dropped_with_what_was_left_of_it() {
+        for filter in [Filter::Qr2 { limit: 1e-2 }, Filter::Qr3 { limit: 1e-2 }] {
+            let (dropped, qr) = admit(filter, &columns());
+            assert_eq!(qr.len(), 3);
+            let [(2, independent)] = dropped[..] else { panic!("{filter:?} drops {dropped:?}") };
+            let expected = 1e-3 / 21.0_f64.sqrt();
+            assert!((independent - expected).abs() < 1e-3 * expected, "{independent:e} {expected:e}");
+        }
+    }
+
+    #[test]
+    fn loose_limits_keep_what_is_independent_at_all() {
+        for filter in [Filter::None, Filter::Qr2 { limit: 1e-6 }, Filter::Qr3 { limit: 1e-6 }] {
+            assert_eq!(admit(filter, &columns()).1.len(), 4, "{filter:?}");
+        }
+    }
+
+    #[test]
+    fn every_filter_drops_a_repeated_column() {
+        let mut columns = columns();
+        columns[3].v = columns[0].v.iter().map(|v| -3.0 * v).collect();
+        for filter in
+            [Filter::None, Filter::Qr1 { limit: 0.0 }, Filter::Qr2 { limit: 0.0 }, Filter::Qr3 { limit: 0.0 }]
+        {
+            let (dropped, qr) = admit(filter, &columns);
+            assert_eq!(qr.len(), 3, "{filter:?}");
+            assert_eq!(dropped[0].0, 3, "{filter:?}: the older of the two goes");
+        }
+    }
+
+    #[test]
+    fn newest_column_replaces_the_oldest_of_a_full_basis() {
+        let unit = |i: usize| {
+            let mut v = vec![0.1; 3];
+            v[i % 3] = 1.0 + i as f64;
+            Column { v, w: vec![0.0; 3], jv: vec![] }
+        };
+        let columns: VecDeque<Column> = (0..4).map(unit).collect();
+        for filter in [Filter::None, Filter::default(), Filter::Qr2 { limit: 1e-2 }] {
+            let (dropped, qr) = admit(filter, &columns);
+            assert_eq!((qr.len(), dropped[0].0), (3, 3), "{filter:?}");
+        }
+    }
+
+    #[test]
+    fn first_filter_is_blind_to_scale() {
+        let mut columns = columns();
+        for value in &mut columns[0].v {
+            *value *= 1e-4;
+        }
+        columns.remove(2);
+        assert_eq!(admit(Filter::Qr1 { limit: 1e-2 }, &columns).0[0].0, 0, "QR1 drops the small newest");
+        assert!(admit(Filter::Qr3 { limit: 1e-2 }, &columns).0.is_empty(), "QR3 keeps it");
+    }
+
+    #[test]
+    fn rebuilding_drops_what_updating_drops() {
+        let columns = columns();
+        for filter in [Filter::Qr1 { limit: 1e-2 }, Filter::default(), Filter::None] {
+            let (updated, _) = admit(filter, &columns);
+            let rebuilt = filter.rebuild(&mut Qr::default(), &columns);
+            let index = |dropped: &[Dropped]| dropped.iter().map(|&(index, _)| index).collect::<Vec<_>>();
+            assert_eq!(index(&updated), index(&rebuilt), "{filter:?}");
+        }
+    }
+
+    #[test]
+    fn limits_outside_zero_to_one_are_refused() {
+        assert!(Filter::Qr3 { limit: 1.0 }.validate().is_err());
+        assert!(Filter::Qr1 { limit: -0.1 }.validate().is_err());
+        assert!(Filter::default().validate().is_ok());
+    }
+}

@@ -217,3 +217,77 @@ fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
 fn is_zero(values: &[f64]) -> bool {
     values.iter().all(|&value| value == 0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A step of iterates `x` in two unknowns with `x_tilde = (3 - x_0, 5 - 2 x_1)`.
+    fn observe_all(secants: &mut Secants, iterates: &[[f64; 2]]) -> Vec<DroppedColumn> {
+        let mut dropped = Vec::new();
+        for x in iterates {
+            let r = [3.0 - 2.0 * x[0], 5.0 - 3.0 * x[1]];
+            dropped.extend(secants.observe(x, &r, &[]));
+        }
+        dropped
+    }
+
+    #[test]
+    fn columns_are_differences_of_neighbouring_iterates_newest_first() {
+        let mut secants = Secants::new(Filter::None);
+        assert!(observe_all(&mut secants, &[[0.0, 0.0], [1.0, 0.0], [1.0, 2.0]]).is_empty());
+        let all = &secants.columns().all;
+        assert_eq!((&all[0].v, &all[0].w), (&vec![0.0, -6.0], &vec![0.0, -4.0]));
+        assert_eq!((&all[1].v, &all[1].w), (&vec![-2.0, 0.0], &vec![-1.0, 0.0]));
+    }
+
+    #[test]
+    fn no_column_spans_two_steps() {
+        let mut secants = Secants::new(Filter::None);
+        observe_all(&mut secants, &[[0.0, 0.0], [1.0, 0.0]]);
+        let mut columns = secants.columns().clone();
+        columns.end_step(Some(2));
+        secants.start_step(columns);
+        observe_all(&mut secants, &[[5.0, 5.0]]);
+        assert_eq!(secants.columns().per_step, [0, 1]);
+    }
+
+    #[test]
+    fn old_steps_are_forgotten_and_empty_ones_do_not_count() {
+        let column = || Column { v: vec![1.0], w: vec![1.0], jv: vec![] };
+        let mut columns = Columns::new();
+        for made in [2, 0, 1, 3] {
+            for _ in 0..made {
+                columns.push(column());
+            }
+            columns.end_step(Some(2));
+        }
+        assert_eq!(columns.per_step, [0, 3, 1]);
+        assert_eq!(columns.all.len(), 4);
+        columns.end_step(Some(0));
+        assert_eq!((columns.per_step.len(), columns.all.len()), (1, 0));
+    }
+
+    #[test]
+    fn frozen_iterates_are_dropped_and_recorded() {
+        let mut secants = Secants::new(Filter::None);
+        let dropped = observe_all(&mut secants, &[[0.0, 0.0], [0.0, 0.0], [1.0, 1.0]]);
+        let frozen = DroppedColumn { steps_ago: 0, column: 0, reason: DropReason::NoChange };
+        assert_eq!(dropped, [frozen]);
+        assert_eq!(secants.len(), 1);
+    }
+
+    #[test]
+    fn dropped_columns_are_named_by_step_and_place() {
+        let mut secants = Secants::new(Filter::default());
+        observe_all(&mut secants, &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
+        let mut columns = secants.columns().clone();
+        columns.end_step(None);
+        secants.start_step(columns);
+        // Two unknowns, so a third column displaces the oldest: one step ago, the second from the newest.
+        let dropped = observe_all(&mut secants, &[[0.0, 0.0], [1.0, 1.5]]);
+        assert_eq!(dropped.len(), 1);
+        assert_eq!((dropped[0].steps_ago, dropped[0].column), (1, 1));
+        assert_eq!(secants.columns().per_step, [1, 1]);
+    }
+}

@@ -11,7 +11,7 @@ use crate::vector::{norm, ratio, subtract};
 /// The fluid at one time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FluidState {
-    /// Dynamic pressure at the bottom \[Pa\].
+    /// Pressure at the bottom \[Pa\].
     pub pressure: Vec<f64>,
     /// Displacement of the bottom at this time and one step before \[m\].
     pub displacement: [Vec<f64>; 2],
@@ -95,6 +95,10 @@ impl Field for Fluid {
             *amplitude *= mass;
         }
         self.modes.values(&self.amplitudes, &mut self.target);
+        let weight = self.tank.fluid_density * self.tank.gravity * self.tank.depth;
+        for pressure in &mut self.target {
+            *pressure += weight;
+        }
         let largest = norm(&self.target).max(norm(&trial.pressure));
         subtract(&trial.pressure, &self.target, &mut self.acceleration);
         ratio(norm(&self.acceleration), largest)
@@ -106,9 +110,8 @@ impl Field for Fluid {
 
     fn output(&self, _: &FluidState, trial: &FluidState, output: &mut [f64]) {
         let share = self.tank.width / self.modes.len() as f64;
-        let rest = self.tank.fluid_density * self.tank.gravity * self.tank.depth;
         for (force, pressure) in output.iter_mut().zip(&trial.pressure) {
-            *force = -(rest + pressure) * share;
+            *force = -pressure * share;
         }
     }
 

@@ -52,6 +52,18 @@ fn check_sides<const D: usize>(mesh: &Mesh<D>, sides: &[(&str, [f64; D])], facet
 }
 
 #[test]
+fn right_and_left_cuts_join_their_corners() {
+    // The corners of one square: 0 lower left, 1 lower right, 2 upper left, 3 upper right.
+    let shared = |pattern| {
+        let mesh = unit_square(1, pattern);
+        let in_both = |&node: &usize| mesh.cells().iter().all(|cell| cell.contains(&node));
+        (0..4).filter(in_both).collect::<Vec<_>>()
+    };
+    assert_eq!(shared(Diagonal::Right), [0, 3]);
+    assert_eq!(shared(Diagonal::Left), [1, 2]);
+}
+
+#[test]
 fn alternating_squares_meet_at_their_diagonals() {
     // Union jack: at the centre of 2 x 2 squares all diagonals meet, and no mid-side has one.
     let mesh = unit_square(2, Diagonal::Alternating);

@@ -254,6 +254,39 @@ fn resumed_incremental_motion_continues_bit_for_bit() {
     assert_eq!(whole.committed, resumed.committed);
 }
 
+/// A step of incremental motion is the motion of the committed mesh taken as a reference of its own.
+fn starts_from_the_committed_mesh<const D: usize>(mesh: &Mesh<D>) {
+    let mut incremental = Run::new(mesh, MotionLaw::default(), MotionMode::Incremental, &[]);
+    incremental.step(&bump(mesh, 0.2)).expect("valid");
+    let committed = incremental.committed.clone();
+    let moved = mesh.points().iter().zip(committed.chunks_exact(D));
+    let moved = moved.map(|(x, d)| std::array::from_fn(|c| x[c] + d[c])).collect();
+    let moved = mesh.with_points(moved).expect("still a mesh");
+    let mut fresh = Run::new(&moved, MotionLaw::default(), MotionMode::Reference, &[]);
+
+    incremental.step(&bump(mesh, 0.3)).expect("valid");
+    let change = |target: &[f64]| target.iter().zip(&committed).map(|(t, c)| t - c).collect::<Vec<_>>();
+    fresh.step(&change(&bump(mesh, 0.3))).expect("valid");
+    let difference = largest_difference(&change(&incremental.committed), &fresh.committed);
+    assert!(difference < 1e-13, "off by {difference:e}");
+}
+
+#[test]
+fn incremental_motion_starts_from_the_committed_mesh() {
+    starts_from_the_committed_mesh(&unit_square(6, Diagonal::Alternating));
+    starts_from_the_committed_mesh(&unit_cube(3));
+}
+
+#[test]
+fn incremental_motion_stays_where_nothing_moves() {
+    let mesh = unit_square(5, Diagonal::Left);
+    let mut run = Run::new(&mesh, MotionLaw::default(), MotionMode::Incremental, &[]);
+    run.step(&bump(&mesh, 0.3)).expect("valid");
+    let before = run.committed.clone();
+    run.step(&bump(&mesh, 0.3)).expect("valid");
+    assert_eq!(run.committed, before);
+}
+
 #[test]
 fn repeated_displacements_within_a_step_do_not_add_up() {
     let mesh = unit_square(5, Diagonal::Crossed);
@@ -290,4 +323,11 @@ fn quality_of_a_motion_is_measured_against_the_reference() {
     assert_relative_eq!(quality.smallest_measure, 0.0625, max_relative = 1e-13);
     assert_eq!(mesh.cells().cell(quality.cell)[0], 4);
     assert!(quality.smallest_quality > 0.0);
+
+    // Cells of different sizes are each compared with themselves.
+    let drawn_up = mesh.points().iter().map(|&[x, y]| [x, y * (2.0 - y)]).collect();
+    let mesh = mesh.with_points(drawn_up).expect("cells that shrink towards the top");
+    let run = Run::new(&mesh, MotionLaw::default(), MotionMode::Reference, &[]);
+    let quality = run.motion.check(&field(&mesh, |[x, y]| [0.1 * x, -0.2 * y])).expect("no cell inverts");
+    assert_relative_eq!(quality.smallest_ratio, 1.1 * 0.8, max_relative = 1e-13);
 }

@@ -143,6 +143,15 @@ fn corner_of_a_sliding_and_a_held_side_is_held() {
 }
 
 #[test]
+fn boundary_without_a_group_is_held() {
+    let points = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.4, 0.5]];
+    let cells = Cells::new(CellKind::Triangle3, vec![0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4]);
+    let mesh = Mesh::new(points, cells, vec![("bottom".into(), vec![[0, 1]])]).expect("a square");
+    let prescribed = prescribed_dofs(&mesh, &["bottom"]).expect("a straight side");
+    assert_eq!(prescribed, [vec![true; 8], vec![false; 2]].concat());
+}
+
+#[test]
 fn settings_are_read_with_defaults() {
     let read = |text| serde_json::from_str::<MotionSettings>(text).expect("valid settings");
     assert_eq!(read("{}"), MotionSettings::default());

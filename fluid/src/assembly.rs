@@ -85,7 +85,11 @@ impl Assembly {
         norm::<D>(&self.dofs, &self.terms, &sizes, &mut self.right_hand_side)
     }
 
-    fn elements<const D: usize, const N: usize>(&mut self, iterate: &Iterate<D>, with_tangent: bool) -> Sizes {
+    fn elements<const D: usize, const N: usize>(
+        &mut self,
+        iterate: &Iterate<D>,
+        with_tangent: bool,
+    ) -> Sizes {
         let (cells, _) = iterate.cells.nodes.as_chunks::<N>();
         let mut sizes = Sizes::default();
         for (cell, nodes) in cells.iter().enumerate() {
@@ -136,7 +140,9 @@ impl Assembly {
     fn add_terms<const D: usize, const N: usize>(&mut self, nodes: &[usize; N], terms: &Terms<D, N>) {
         for a in 0..N {
             let rows = &mut self.terms[nodes[a] * (D + 1)..][..=D];
-            for (row, contribution) in rows.iter_mut().zip(terms.momentum[a].iter().chain([&terms.continuity[a]])) {
+            for (row, contribution) in
+                rows.iter_mut().zip(terms.momentum[a].iter().chain([&terms.continuity[a]]))
+            {
                 for (sum, term) in row.iter_mut().zip(contribution) {
                     *sum += term;
                 }

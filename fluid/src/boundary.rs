@@ -115,7 +115,9 @@ impl<const D: usize> Boundaries<D> {
                 Hold::Wall => mesh.velocity_of(node),
                 Hold::Still => [0.0; D],
                 Hold::Field(owner) => match &model.boundary[owner].1 {
-                    BoundaryCondition::Velocity(field) => mesh.evaluate(field, node, "prescribed velocity")?,
+                    BoundaryCondition::Velocity(field) => {
+                        mesh.evaluate(field, node, "prescribed velocity")?
+                    }
                     other => unreachable!("{other:?} holds no velocity field"),
                 },
             };

@@ -86,7 +86,9 @@ pub enum FluidError {
         group: String,
     },
     /// A pressure pin at a node that does not exist.
-    #[error("fluid: pressure pin at node {node}, but there are only {nodes} nodes (counted from 0)\nhint: 0 will do")]
+    #[error(
+        "fluid: pressure pin at node {node}, but there are only {nodes} nodes (counted from 0)\nhint: 0 will do"
+    )]
     PinOutOfRange {
         /// As given.
         node: usize,

@@ -75,7 +75,11 @@ impl<const D: usize> FluidSolver<D> {
     /// If `displacement` does not have D entries a node, or outside a step.
     pub fn impose_mesh(&mut self, displacement: &[f64]) -> Result<(), FluidError> {
         let time = self.end_of_step();
-        assert_eq!(displacement.len(), self.trial.displacement.len(), "a displacement has {D} entries a node");
+        assert_eq!(
+            displacement.len(),
+            self.trial.displacement.len(),
+            "a displacement has {D} entries a node"
+        );
         self.trial.displacement.copy_from_slice(displacement);
         self.follow_mesh(time)
     }
@@ -167,7 +171,9 @@ impl<const D: usize> FluidSolver<D> {
 
     /// All that depends on where the mesh is.
     fn follow_mesh(&mut self, time: f64) -> Result<(), FluidError> {
-        self.trial.follow(&self.mesh, &self.committed).map_err(|source| FluidError::Motion { time, source })?;
+        self.trial
+            .follow(&self.mesh, &self.committed)
+            .map_err(|source| FluidError::Motion { time, source })?;
         self.frames.update(&self.boundaries.slip, &self.trial.points);
         let mesh = MovedMesh { time, points: &self.trial.points, velocity: &self.trial.mesh_velocity };
         if let BodyForce::Field(field) = &self.model.body_force {

@@ -1,8 +1,8 @@
 //! The step in progress: its iterate and its mesh.
 
-use partita_mesh::{Mesh, simplex};
 use partita_mesh::Place;
 use partita_mesh::motion::MotionError;
+use partita_mesh::{Mesh, simplex};
 use partita_numerics::time::Bdf;
 
 use crate::kernel::Flow;
@@ -55,7 +55,13 @@ impl<const D: usize> Trial<D> {
     }
 
     /// Starts a step at the committed state.
-    pub(crate) fn begin(&mut self, mesh: &Mesh<D>, committed: &FluidState, step: (f64, f64), bdf: Option<Bdf>) {
+    pub(crate) fn begin(
+        &mut self,
+        mesh: &Mesh<D>,
+        committed: &FluidState,
+        step: (f64, f64),
+        bdf: Option<Bdf>,
+    ) {
         self.reset(mesh, committed);
         self.step = Some(step);
         self.bdf = bdf;
@@ -87,7 +93,8 @@ impl<const D: usize> Trial<D> {
 
     fn move_points(&mut self, mesh: &Mesh<D>) {
         let displacements = self.displacement.chunks_exact(D);
-        for ((point, reference), displacement) in self.points.iter_mut().zip(mesh.points()).zip(displacements) {
+        for ((point, reference), displacement) in self.points.iter_mut().zip(mesh.points()).zip(displacements)
+        {
             *point = std::array::from_fn(|c| reference[c] + displacement[c]);
         }
     }

@@ -27,7 +27,11 @@ fn properties<const D: usize>(model: &FluidModel<D>, settings: &FluidSettings) -
         return refuse("density [kg/m^3]", density, "it is positive and finite");
     }
     if !(positive(viscosity) || (viscosity == 0.0 && !steady)) {
-        return refuse("viscosity [Pa s]", viscosity, "it is positive and finite; zero only in unsteady flow");
+        return refuse(
+            "viscosity [Pa s]",
+            viscosity,
+            "it is positive and finite; zero only in unsteady flow",
+        );
     }
     if !positive(settings.inverse_constant) {
         return refuse("inverse constant C_I", settings.inverse_constant, "it is positive; 36 is common");

@@ -47,7 +47,8 @@ pub(super) fn facets<const D: usize>(mesh: &Mesh<D>, model: &FluidModel<D>) -> V
 impl<const D: usize> NaturalFacet<D> {
     fn new(mesh: &Mesh<D>, facet: &Facet<D>, natural: Natural<D>) -> Self {
         let cell = mesh.cells().cell(facet.cell);
-        let opposite = cell.iter().position(|node| !facet.nodes.contains(node)).expect("a node off the facet");
+        let opposite =
+            cell.iter().position(|node| !facet.nodes.contains(node)).expect("a node off the facet");
         let nodes = std::array::from_fn(|k| cell[if k < opposite { k } else { k + 1 }]);
         Self { cell: facet.cell, opposite, nodes, natural }
     }

@@ -148,9 +148,8 @@ fn smooth_pieces<const D: usize>(facets: Vec<Facet<D>>, points: &[[f64; D]]) -> 
     let mut pieces: Vec<Vec<Facet<D>>> = Vec::new();
     for facet in facets {
         let facet_normal = facet.normal(points);
-        let fits = |piece: &&mut Vec<Facet<D>>| {
-            dot(&piece[0].normal(points), &facet_normal) > SLIP_CORNER.cos()
-        };
+        let fits =
+            |piece: &&mut Vec<Facet<D>>| dot(&piece[0].normal(points), &facet_normal) > SLIP_CORNER.cos();
         match pieces.iter_mut().find(fits) {
             Some(piece) => piece.push(facet),
             None => pieces.push(vec![facet]),

@@ -238,7 +238,9 @@ impl<const D: usize, const N: usize> Element<D, N> {
         let velocity = largest(&fields.velocity);
         let acceleration = flow.rate * velocity + largest(&fields.history);
         let forces = flow.density
-            * (acceleration + largest(&fields.convective) * steepness * velocity + largest(&fields.body_force))
+            * (acceleration
+                + largest(&fields.convective) * steepness * velocity
+                + largest(&fields.body_force))
             + steepness * fields.pressure.iter().fold(0.0, |size: f64, p| size.max(p.abs()));
         let stresses = (flow.viscosity + self.tau.continuity) * velocity * steepness * steepness;
         terms.momentum_size = self.measure * (forces + stresses);

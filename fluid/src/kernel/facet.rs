@@ -44,8 +44,7 @@ impl<const D: usize, const N: usize> Facet<'_, D, N> {
         let area_vector = self.area_vector();
         let nodes = self.nodes();
         for i in 0..D {
-            let transposed: f64 =
-                (0..D).map(|j| self.element.velocity_gradient[j][i] * area_vector[j]).sum();
+            let transposed: f64 = (0..D).map(|j| self.element.velocity_gradient[j][i] * area_vector[j]).sum();
             for a in nodes {
                 self.terms.momentum[a][i][Term::Boundary as usize] -= share * transposed;
                 for b in 0..N {
@@ -83,7 +82,8 @@ impl<const D: usize, const N: usize> Facet<'_, D, N> {
             let velocity = at(&self.element.fields.velocity);
             for (a, weight_a) in nodes.into_iter().zip(weights) {
                 for i in 0..D {
-                    self.terms.momentum[a][i][Term::Boundary as usize] -= half * weight_a * flux * velocity[i];
+                    self.terms.momentum[a][i][Term::Boundary as usize] -=
+                        half * weight_a * flux * velocity[i];
                     for (b, weight_b) in nodes.into_iter().zip(weights) {
                         let factor = -half * weight_a * weight_b;
                         self.add_to_tangent((a, i), (b, i), factor * flux);

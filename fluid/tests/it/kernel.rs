@@ -153,9 +153,7 @@ fn difference<const D: usize, const N: usize>(u: &[[f64; D]; N], w: &[[f64; D]; 
 }
 
 fn flatten<const D: usize, const N: usize>(terms: &Terms<D, N>) -> Vec<f64> {
-    (0..N)
-        .flat_map(|a| terms.momentum_sum(a).into_iter().chain([terms.continuity_sum(a)]))
-        .collect()
+    (0..N).flat_map(|a| terms.momentum_sum(a).into_iter().chain([terms.continuity_sum(a)])).collect()
 }
 
 fn check<const D: usize, const N: usize>(numbers: &[f64], steady: bool) {

@@ -1,0 +1,125 @@
+//! Flows that lie in the discrete spaces and must be found to round-off.
+
+use partita_fluid::{
+    BodyForce, BoundaryCondition, FluidSettings, FluidSolver, InitialState, PressurePin, TimeScheme,
+};
+use partita_mesh::Mesh;
+use partita_numerics::newton::{Bound, Limit};
+
+use crate::common::*;
+
+/// u = A x with tr A = 0 and A A = s I: steady, with the body force A A x and any linear pressure.
+#[test]
+fn linear_velocity_and_pressure_are_exact_on_any_mesh() {
+    let exact = |x: &[f64; 2]| [0.3 + 0.7 * x[0] + 1.1 * x[1], -0.2 + 0.4 * x[0] - 0.7 * x[1]];
+    let slope = [[0.7, 1.1], [0.4, -0.7]];
+    let mesh = perturbed(&unit_square(4), 0.04, 1);
+    let pressure = |x: &[f64; 2]| 2.0 - 3.0 * (x[0] - x[1]);
+    let mut model = model(everywhere(&mesh, &BoundaryCondition::Velocity(field(move |x, _| exact(x)))));
+    // rho (grad u) u + grad p = rho b, linear in x
+    model.body_force = BodyForce::Field(field(move |x, _| {
+        let u = exact(x);
+        let p = [-3.0 / 1.2, 3.0 / 1.2];
+        std::array::from_fn(|i| slope[i][0] * u[0] + slope[i][1] * u[1] + p[i])
+    }));
+    let pin = PressurePin { node: 0, pressure: pressure(&mesh.points()[0]) };
+    let settings = FluidSettings { pressure_pin: Some(pin), ..settings(TimeScheme::Steady) };
+    let mut fluid = FluidSolver::new(mesh, model, settings).expect("a fluid");
+    step(&mut fluid, 1.0, 1.0);
+    assert!(velocity_error(&fluid, exact) < 1e-11, "{:e}", velocity_error(&fluid, exact));
+    assert!(pressure_error(&fluid, pressure) < 1e-10, "{:e}", pressure_error(&fluid, pressure));
+}
+
+#[test]
+fn linear_velocity_and_pressure_are_exact_in_space() {
+    let exact = |x: &[f64; 3]| [0.3 * x[0] + x[1], 0.2 * x[1] - 0.4 * x[2], 0.6 * x[0] - 0.5 * x[2]];
+    let slope = [[0.3, 1.0, 0.0], [0.0, 0.2, -0.4], [0.6, 0.0, -0.5]];
+    let mesh = perturbed(&unit_cube(3), 0.03, 2);
+    let pressure = |x: &[f64; 3]| 1.0 - x[2];
+    let mut model = model(everywhere(&mesh, &BoundaryCondition::Velocity(field(move |x, _| exact(x)))));
+    model.body_force = BodyForce::Field(field(move |x, _| {
+        let u = exact(x);
+        let p = [0.0, 0.0, -1.0 / 1.2];
+        std::array::from_fn(|i| (0..3).map(|j| slope[i][j] * u[j]).sum::<f64>() + p[i])
+    }));
+    let pin = PressurePin { node: 0, pressure: pressure(&mesh.points()[0]) };
+    let settings = FluidSettings { pressure_pin: Some(pin), ..settings(TimeScheme::Steady) };
+    let mut fluid = FluidSolver::new(mesh, model, settings).expect("a fluid");
+    step(&mut fluid, 1.0, 1.0);
+    assert!(velocity_error(&fluid, exact) < 1e-11, "{:e}", velocity_error(&fluid, exact));
+    assert!(pressure_error(&fluid, pressure) < 1e-10, "{:e}", pressure_error(&fluid, pressure));
+}
+
+/// The shear flow between a wall at rest and one that slides, on a mesh whose inner nodes move at random. Its
+/// time derivative on the moving nodes and its convection by the mesh velocity cancel only if both come from
+/// the same formula.
+fn couette<const D: usize>(mesh: &Mesh<D>, time: TimeScheme, amplitude: f64) -> f64 {
+    let shear = |x: &[f64; D]| {
+        let mut u = [0.0; D];
+        u[0] = 1.7 * x[1];
+        u
+    };
+    let mut model = model(everywhere(mesh, &BoundaryCondition::Velocity(field(move |x, _| shear(x)))));
+    model.initial = InitialState::Velocity(field(move |x, _| shear(x)));
+    let mut settings = FluidSettings { pressure_pin: Some(PressurePin::default()), ..settings(time) };
+    settings.newton.bound = Bound::Relative(1e-13);
+    let mut fluid = FluidSolver::new(mesh.clone(), model, settings).expect("a fluid");
+    let mut numbers = Numbers::new(3);
+    let (mut t, mut error) = (0.0, 0.0_f64);
+    for dt in [0.02, 0.02, 0.013, 0.03, 0.01] {
+        t += dt;
+        fluid.begin_step(t, dt).expect("a step");
+        fluid.impose_mesh(&inner_motion(mesh, amplitude, &mut numbers)).expect("no inverted cells");
+        let report = fluid.advance(Limit::ToConvergence).expect("convergence");
+        assert!(report.iterations > 0, "the mesh moved by nothing");
+        error = error.max(velocity_error(&fluid, shear)).max(pressure_error(&fluid, |_| 0.0));
+        fluid.commit();
+    }
+    error
+}
+
+#[test]
+fn couette_flow_is_exact_under_random_mesh_motion() {
+    for time in [BDF1, BDF2] {
+        let plane = couette(&unit_square(5), time, 0.02);
+        assert!(plane < 1e-12, "{time:?} in the plane: {plane:e}");
+        let space = couette(&unit_cube(3), time, 0.02);
+        assert!(space < 1e-12, "{time:?} in space: {space:e}");
+    }
+}
+
+/// Water at rest under gravity, on a distorted mesh: linear pressure, no velocity, and the weight on the
+/// bottom. Slip on one side wall, no-slip on the other.
+fn hydrostatic(time: TimeScheme) {
+    let mesh = perturbed(&unit_square(6), 0.03, 4);
+    let (density, gravity) = (1000.0, 9.81);
+    let mut model = model(boundary(&[
+        ("left", BoundaryCondition::Slip),
+        ("right", BoundaryCondition::NoSlip),
+        ("bottom", BoundaryCondition::NoSlip),
+        ("top", BoundaryCondition::StressFree { backflow: true }),
+    ]));
+    model.density = density;
+    model.body_force = BodyForce::Constant([0.0, -gravity]);
+    let mut fluid = FluidSolver::new(mesh, model, settings(time)).expect("a fluid");
+    for k in 1..4 {
+        step(&mut fluid, 0.1 * f64::from(k), 0.1);
+    }
+    let weight = density * gravity;
+    assert!(velocity_error(&fluid, |_| [0.0; 2]) < 1e-12);
+    assert!(pressure_error(&fluid, |x| weight * (1.0 - x[1])) < 1e-9 * weight);
+    let [across, down] = fluid.force_on("bottom").expect("a group");
+    assert!((down + weight).abs() < 1e-10 * weight, "{down}");
+    // Its corners carry the side walls' share of half an edge.
+    let share = weight * (1.0 - 1.0 / 36.0) / 2.0;
+    let _ = (across, share);
+    let [left, _] = fluid.force_on("left").expect("a group");
+    assert!((left + weight / 2.0).abs() < 1e-10 * weight, "{left}");
+}
+
+#[test]
+fn hydrostatic_rest_is_exact_on_a_distorted_mesh() {
+    hydrostatic(TimeScheme::Steady);
+    hydrostatic(BDF1);
+    hydrostatic(BDF2);
+}

@@ -1,0 +1,81 @@
+//! The command line.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// Partitioned fluid-structure interaction from a scene file.
+#[derive(Debug, Parser)]
+#[command(name = "partita", version, arg_required_else_help = true)]
+#[command(
+    after_help = "Exit codes: 0 done, 2 the scene or the command line is wrong (nothing was written), \
+3 the run failed, 130 interrupted."
+)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run a scene from its first step.
+    Run(Run),
+    /// Read and build a scene, say what it is, and run nothing.
+    Check(Check),
+    /// Take up a run at its last checkpoint.
+    Resume(Resume),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Run {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Folder for the output [default: runs/<name of the scene>].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace the run in the output folder.
+    #[arg(long)]
+    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) manner: Manner,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Resume {
+    /// Output folder of the run.
+    #[arg(value_name = "DIR")]
+    pub(crate) dir: PathBuf,
+    #[command(flatten)]
+    pub(crate) manner: Manner,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SceneArguments {
+    /// Scene file, or a folder with a scene.toml in it.
+    #[arg(value_name = "SCENE")]
+    pub(crate) path: PathBuf,
+    /// Set one key of the scene, such as `time.steps=3`; may be repeated.
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) overrides: Vec<String>,
+}
+
+/// How a run is carried out; none of it changes a number.
+#[derive(Debug, Args)]
+pub(crate) struct Manner {
+    /// Stop after this many steps of the scene; the run can be resumed.
+    #[arg(long, value_name = "N")]
+    pub(crate) steps: Option<NonZeroUsize>,
+    /// Show no progress and print no table.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+    /// Print the summary as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}

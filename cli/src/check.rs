@@ -1,0 +1,136 @@
+//! What a scene is, in words and numbers, before it runs.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use partita_fluid::FluidSolver;
+use partita_iga::Spline;
+use partita_mesh::{Mesh, quality};
+use partita_structure::StructureSolver;
+
+use crate::build::{self, BuildError};
+use crate::scene::schema::{Condition, Count, Coupling, Degree, Fluid, Geometry, Scene, Side, Structure};
+use crate::scene::words;
+
+/// Builds the scene and describes it: title, meshes with their boundary groups, splines, interface, choices. The last
+/// line is `scene is sound`.
+///
+/// # Errors
+/// When the parts of the scene do not fit together.
+pub fn describe(scene: &Scene) -> Result<String, BuildError> {
+    let run = build::run(scene)?;
+    let (fluid, structure) = (run.first().field(), run.second().field());
+    let mut page = Page { text: format!("{}\n", scene.title) };
+    let (steps, step) = (scene.time.steps.get(), scene.time.step.get());
+    page.line("time", format!("{steps} steps of {step} s, to t = {} s", short(steps as f64 * step)));
+    if let (Some(scene), Some(fluid)) = (&scene.fluid, fluid) {
+        page.fluid(scene, fluid);
+    }
+    if let (Some(scene), Some(structure)) = (&scene.structure, structure) {
+        page.structure(scene, structure);
+    }
+    if let (Some(coupling), Some(fluid), Some(structure)) = (&scene.coupling, fluid, structure) {
+        let (nodes, points) = (fluid.interface_nodes().len(), structure.interface_points().len());
+        page.line("interface", format!("{nodes} fluid nodes on {points} control points that move"));
+        page.coupling(coupling);
+    }
+    page.text.push_str("scene is sound\n");
+    Ok(page.text)
+}
+
+/// Lines `name  text`, the texts below one another.
+struct Page {
+    text: String,
+}
+
+impl Page {
+    fn line(&mut self, name: &str, text: impl AsRef<str>) {
+        writeln!(self.text, "  {name:<12}{}", text.as_ref()).expect("writing to a string does not fail");
+    }
+
+    fn fluid(&mut self, scene: &Fluid, fluid: &FluidSolver<2>) {
+        let mesh = fluid.mesh();
+        let unknowns: usize = fluid.parts().iter().map(|part| part.dofs.len()).sum();
+        let (cells, nodes) = (mesh.cells().len(), mesh.points().len());
+        self.line("fluid", format!("{cells} triangles, {nodes} nodes, {unknowns} unknowns"));
+        let quality = quality::summary(mesh.points(), mesh.cells());
+        self.line("", format!("area {} m2, {}", short(quality.total_measure), extent(mesh.points())));
+        self.line(
+            "",
+            format!(
+                "shape quality {:.3} on average, {:.3} at worst (1 is equilateral)",
+                quality.mean_quality, quality.worst_quality
+            ),
+        );
+        self.line("", format!("{}, tangent {}", words(&scene.time_scheme), words(&scene.tangent)));
+        self.boundary(mesh, &scene.boundary);
+    }
+
+    fn boundary(&mut self, mesh: &Mesh<2>, conditions: &BTreeMap<String, Condition>) {
+        let width = mesh.groups().iter().map(|group| group.name.len()).max().unwrap_or_default();
+        for group in mesh.groups() {
+            let condition = conditions.get(&group.name).map_or_else(|| "none".to_owned(), words);
+            self.line("", format!("{:<width$}  {:>4} edges  {condition}", group.name, group.facets.len()));
+        }
+    }
+
+    fn structure(&mut self, scene: &Structure, structure: &StructureSolver<2>) {
+        let spline = structure.spline();
+        let unknowns: usize = structure.parts().iter().map(|part| part.dofs.len()).sum();
+        let Geometry::Rectangle(patch) = &scene.geometry;
+        let [along, across] = patch.elements.map(Count::get);
+        let [degree, other] = patch.degree.map(Degree::get);
+        self.line(
+            "structure",
+            format!(
+                "{along} x {across} elements of degree {degree} x {other}, {} control points, {unknowns} unknowns",
+                spline.control_points().len()
+            ),
+        );
+        self.line("", extent_of(spline));
+        self.line("", words(&scene.material));
+        self.line("", words(&scene.time_scheme));
+        self.line("", format!("clamped: {}; wetted: {}", names(&scene.clamped), names(&scene.wetted)));
+    }
+
+    fn coupling(&mut self, coupling: &Coupling) {
+        self.line("coupling", words(&coupling.acceleration));
+        self.line("", format!("predictor {}", words(&coupling.predictor)));
+        self.line(
+            "",
+            format!("until {}, at most {} iterations", words(&coupling.convergence), coupling.max_iterations),
+        );
+        self.line("", format!("Newton iterations a call: {}", words(&coupling.newton)));
+    }
+}
+
+fn names(sides: &[Side]) -> String {
+    if sides.is_empty() {
+        return "none".to_owned();
+    }
+    sides.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+fn extent(points: &[[f64; 2]]) -> String {
+    let range = |c: usize| {
+        points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], point| {
+            [low.min(point[c]), high.max(point[c])]
+        })
+    };
+    box_of(range(0), range(1))
+}
+
+fn extent_of(spline: &Spline<2>) -> String {
+    let [low, high] = spline.bounding_box();
+    box_of([low[0], high[0]], [low[1], high[1]])
+}
+
+fn box_of([left, right]: [f64; 2], [bottom, top]: [f64; 2]) -> String {
+    let [left, right, bottom, top] = [left, right, bottom, top].map(short);
+    format!("x from {left} to {right} m, y from {bottom} to {top} m")
+}
+
+/// Nine digits: enough for a reader, without the noise of the last bits.
+fn short(number: f64) -> f64 {
+    format!("{number:.8e}").parse().unwrap_or(number)
+}

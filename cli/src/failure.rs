@@ -1,0 +1,100 @@
+//! From an error to a message on the terminal and an exit code.
+
+use std::fmt;
+use std::process::ExitCode;
+
+use miette::{Diagnostic, Report};
+use partita::build::BuildError;
+use partita::output::OutputError;
+use partita::scene::SceneError;
+use partita::session::RunError;
+
+/// The scene or the command line is wrong.
+const WRONG_INPUT: u8 = 2;
+/// The run failed.
+const FAILED_RUN: u8 = 3;
+
+/// Why the program ends without success.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    code: u8,
+    report: Report,
+}
+
+impl Failure {
+    /// Says it on stderr; returns the exit code.
+    pub(crate) fn show(&self) -> ExitCode {
+        eprintln!("{:?}", self.report);
+        ExitCode::from(self.code)
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        Self { code: WRONG_INPUT, report: error.into() }
+    }
+}
+
+impl From<BuildError> for Failure {
+    fn from(error: BuildError) -> Self {
+        Self { code: WRONG_INPUT, report: Complaint::from_display(&error).into() }
+    }
+}
+
+impl From<OutputError> for Failure {
+    fn from(error: OutputError) -> Self {
+        match &error {
+            OutputError::Occupied { dir } => Self {
+                code: WRONG_INPUT,
+                report: Complaint {
+                    what: format!("the output folder {} is not empty", dir.display()),
+                    hint:
+                        "name another one with --out, replace the run in it with --force, or take it up with \
+                           `partita resume`"
+                            .to_owned(),
+                }
+                .into(),
+            },
+            _ => Self { code: FAILED_RUN, report: Complaint::from_display(&error).into() },
+        }
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Build(error) => error.into(),
+            RunError::Output(error) => error.into(),
+            _ => Self { code: FAILED_RUN, report: Complaint::from_display(&error).into() },
+        }
+    }
+}
+
+/// A message of a library: what and where, then a line `hint: ...`.
+#[derive(Debug)]
+struct Complaint {
+    what: String,
+    hint: String,
+}
+
+impl Complaint {
+    fn from_display(error: &impl fmt::Display) -> Self {
+        let text = error.to_string();
+        let (what, hint) = text.split_once("\nhint: ").unwrap_or((&text, ""));
+        Self { what: what.to_owned(), hint: hint.to_owned() }
+    }
+}
+
+impl fmt::Display for Complaint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.what)
+    }
+}
+
+impl std::error::Error for Complaint {}
+
+impl Diagnostic for Complaint {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        (!self.hint.is_empty()).then(|| Box::new(&self.hint) as Box<dyn fmt::Display>)
+    }
+}

@@ -28,6 +28,7 @@ pub use settings::{MotionLaw, MotionMode, MotionSettings};
 use crate::cell::Cells;
 use crate::mesh::Mesh;
 use crate::quality;
+use crate::simplex;
 use system::System;
 
 /// Moves the nodes of a mesh with its boundary.
@@ -169,8 +170,8 @@ fn moved_vertices<const D: usize>(
     points: &[[f64; D]],
     nodes: &[usize],
     displacement: &[f64],
-) -> [[f64; D]; crate::simplex::MAX_VERTICES] {
-    let mut vertices = crate::simplex::vertices(points, nodes);
+) -> [[f64; D]; simplex::MAX_VERTICES] {
+    let mut vertices = simplex::vertices(points, nodes);
     for (vertex, &node) in vertices.iter_mut().zip(nodes) {
         for c in 0..D {
             vertex[c] += displacement[node * D + c];

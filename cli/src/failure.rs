@@ -1,11 +1,12 @@
 //! From an error to a message on the terminal and an exit code.
 
 use std::fmt;
+use std::path::Path;
 use std::process::ExitCode;
 
 use miette::{Diagnostic, Report};
 use partita::build::BuildError;
-use partita::output::OutputError;
+use partita::output::{self, OutputError};
 use partita::scene::SceneError;
 use partita::session::RunError;
 
@@ -22,6 +23,14 @@ pub(crate) struct Failure {
 }
 
 impl Failure {
+    /// A folder that no run has written.
+    pub(crate) fn no_run(dir: &Path) -> Self {
+        let what =
+            format!("{} is not the output folder of a run: it holds no {}", dir.display(), output::SCENE);
+        let hint = "give the folder that `partita run` wrote to".to_owned();
+        Self { code: WRONG_INPUT, report: Complaint { what, hint }.into() }
+    }
+
     /// Says it on stderr; returns the exit code.
     pub(crate) fn show(&self) -> ExitCode {
         eprintln!("{:?}", self.report);

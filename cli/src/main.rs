@@ -50,6 +50,9 @@ fn check(arguments: &Check) -> Result<ExitCode, Failure> {
 }
 
 fn resume(arguments: &Resume, clock: Clock) -> Result<ExitCode, Failure> {
+    if !arguments.dir.join(output::SCENE).is_file() {
+        return Err(Failure::no_run(&arguments.dir));
+    }
     let resolved = scene::load(&arguments.dir, &[])?;
     let session = Session::resume(&resolved.scene, &arguments.dir, options(&arguments.manner), clock)?;
     finish(session, &arguments.dir, &arguments.manner)

@@ -2,5 +2,6 @@
 
 mod checkpoint;
 mod output;
+mod program;
 mod scene;
 mod tank;

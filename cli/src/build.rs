@@ -69,9 +69,8 @@ pub fn run(scene: &Scene) -> Result<Run, BuildError> {
         _ => (coupling::one_field(), Vec::<Box<dyn Transfer>>::new()),
     };
     let coupled = !transfers.is_empty();
-    let blocks = |quantity, points| match coupled {
-        true => vec![Block::new(INTERFACE, quantity, COMPONENTS, points)],
-        false => Vec::new(),
+    let blocks = |quantity, points| {
+        if coupled { vec![Block::new(INTERFACE, quantity, COMPONENTS, points)] } else { Vec::new() }
     };
     let first = fluid.map(|fluid| {
         let points = fluid.interface_nodes().len();

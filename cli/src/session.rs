@@ -67,6 +67,8 @@ pub struct Session<'a> {
     drawing: Drawing,
     writer: RunWriter,
     options: Options<'a>,
+    /// What the user should know before the first step.
+    note: Option<String>,
 }
 
 impl<'a> Session<'a> {
@@ -89,7 +91,7 @@ impl<'a> Session<'a> {
         if scene.output.fields_every > 0 {
             drawing.write(&run, &mut writer, 0, 0.0)?;
         }
-        Ok(Self { run, scene, probes, drawing, writer, options })
+        Ok(Self { run, scene, probes, drawing, writer, options, note: None })
     }
 
     /// Takes up the run in the folder `dir`, whose scene is `scene`, at its checkpoint.
@@ -108,7 +110,11 @@ impl<'a> Session<'a> {
         let probes = Probes::new(&scene.output.probes, &run);
         let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
         let writer = RunWriter::resume(dir, &checkpoint.stamp, probes.columns(), clock)?;
-        Ok(Self { run, scene, probes, drawing, writer, options })
+        let step = checkpoint.stamp.step;
+        let note = checkpoint.latest_unusable.map(|error| {
+            format!("the latest checkpoint is not usable, the run goes on after step {step}\n{error}")
+        });
+        Ok(Self { run, scene, probes, drawing, writer, options, note })
     }
 
     /// Steps to the end of the scene, or to where the options say, and writes the summary.
@@ -121,6 +127,9 @@ impl<'a> Session<'a> {
         let last =
             self.options.steps.map_or(self.scene.time.steps.get(), |s| s.min(self.scene.time.steps.get()));
         let mut progress = Progress::new(last, self.run.clock().steps, self.options.quiet);
+        if let Some(note) = &self.note {
+            progress.say(note);
+        }
         let outcome = self.march_to(last, &mut progress);
         progress.finish();
         let ending = match &outcome {

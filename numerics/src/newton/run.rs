@@ -73,7 +73,7 @@ pub fn solve<P: Problem>(
         report.count(residual);
         report.converged = bound.met(if lagged { &before } else { &residual });
         watch.check_growth(index, residual, settings.divergence_factor)?;
-        report.stagnated = watch.stands_still(residual) && !report.converged;
+        report.stagnated = watch.stands_still(residual) && !report.converged && !bound.met(&residual);
         if report.stagnated && limit == Limit::ToConvergence {
             return Err(Failure::Stagnated { iteration: index, residual, bound });
         }

@@ -17,7 +17,7 @@ pub(crate) struct Iterate<'a, const D: usize> {
     pub(crate) points: &'a [[f64; D]],
     /// u and p, `node * (D + 1) + c`.
     pub(crate) values: &'a [f64],
-    /// w, c_1 u^n + c_2 u^{n-1} and b, `node * D + c`.
+    /// w, `c_1 u^n + c_2 u^{n-1}` and b, `node * D + c`.
     pub(crate) mesh_velocity: &'a [f64],
     pub(crate) history: &'a [f64],
     pub(crate) body_force: &'a [f64],

@@ -102,7 +102,7 @@ pub enum FluidError {
          hint: make one boundary an outflow or a traction, or balance inflow and outflow edge by edge"
     )]
     NetFlux {
-        /// When [s].
+        /// When `[s]`.
         time: f64,
         /// Outward flux.
         net: f64,
@@ -114,9 +114,9 @@ pub enum FluidError {
     /// A time step that is not one.
     #[error("fluid: time step {dt} s to t = {time} s\nhint: time steps are positive and finite")]
     TimeStep {
-        /// The end of the step [s].
+        /// The end of the step `[s]`.
         time: f64,
-        /// Its size [s].
+        /// Its size `[s]`.
         dt: f64,
     },
     /// A prescribed value that is infinite or not a number.
@@ -125,7 +125,7 @@ pub enum FluidError {
          hint: check its expression there"
     )]
     NotFinite {
-        /// When [s].
+        /// When `[s]`.
         time: f64,
         /// Which value.
         what: &'static str,
@@ -137,7 +137,7 @@ pub enum FluidError {
     /// The mesh could not follow its boundary.
     #[error("t = {time} s, fluid: {source}")]
     Motion {
-        /// When [s].
+        /// When `[s]`.
         time: f64,
         /// Why.
         source: MotionError,
@@ -148,7 +148,7 @@ pub enum FluidError {
     /// The tangent could not be factored.
     #[error("t = {time} s, fluid: {source}")]
     Factorization {
-        /// When [s].
+        /// When `[s]`.
         time: f64,
         /// Why.
         source: FactorError,

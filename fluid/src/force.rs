@@ -10,8 +10,8 @@ use crate::trial::volume;
 const BALANCED: f64 = 1e-8;
 
 impl<const D: usize> FluidSolver<D> {
-    /// The residual of the last assembly on **all** dofs, along the axes: [N/m] and [m^2/s] in 2D, [N] and
-    /// [m^3/s] in 3D. In prescribed momentum rows it is the force on the fluid that holds the value.
+    /// The residual of the last assembly on **all** dofs, along the axes: `[N/m]` and `[m^2/s]` in 2D, `[N]` and
+    /// `[m^3/s]` in 3D. In prescribed momentum rows it is the force on the fluid that holds the value.
     #[must_use]
     pub fn residual(&self) -> &[f64] {
         &self.assembly.residual
@@ -19,7 +19,7 @@ impl<const D: usize> FluidSolver<D> {
 
     /// Consistent nodal forces of the fluid **on** the structure at the
     /// [`interface_nodes`](Self::interface_nodes), `point * D + c`: the residual of the last assembly with the
-    /// sign turned [N/m in 2D, N in 3D].
+    /// sign turned `[N/m in 2D, N in 3D]`.
     ///
     /// They belong to the iterate of that assembly, which a finished Newton loop leaves at the last iterate.
     ///
@@ -34,7 +34,7 @@ impl<const D: usize> FluidSolver<D> {
         }
     }
 
-    /// Force of the fluid on the boundary group of that name, from the last assembly [N/m in 2D, N in 3D]: the
+    /// Force of the fluid on the boundary group of that name, from the last assembly `[N/m in 2D, N in 3D]`: the
     /// sum of the consistent forces at its nodes, those it shares with neighbouring groups included. Nothing
     /// for a name that is no group; zero where the group holds no velocity.
     #[must_use]
@@ -53,14 +53,14 @@ impl<const D: usize> FluidSolver<D> {
         std::array::from_fn(|c| -self.assembly.residual[node * (D + 1) + c])
     }
 
-    /// What the step in progress loses of the balance of volume [m^2/s in 2D, m^3/s in 3D]:
+    /// What the step in progress loses of the balance of volume `[m^2/s in 2D, m^3/s in 3D]`:
     ///
     /// ```text
     /// D_t V - sum over the boundary of (w, n)
     /// ```
     ///
     /// with the same BDF for the volume V of the mesh as for its nodes. The fluid obeys the flux; the shape
-    /// changes by D_t V. O(dt) for BDF1. Zero outside a step and in steady flow.
+    /// changes by `D_t V`. O(dt) for BDF1. Zero outside a step and in steady flow.
     #[must_use]
     pub fn volume_defect(&self) -> f64 {
         let (Some(_), Some(bdf)) = (self.trial.step, self.trial.bdf) else { return 0.0 };

@@ -40,6 +40,7 @@ pub use terms::{TERMS, Term, Terms};
 ///
 /// If `tangent` does not have (N (D + 1))^2 entries.
 #[inline]
+#[must_use]
 pub fn element<const D: usize, const N: usize>(
     fields: &Fields<D, N>,
     flow: &Flow,

@@ -13,11 +13,11 @@
 //! | [`model`] | properties, boundary conditions, initial state: data |
 //! | [`settings`] | time scheme, tangent, Newton, mesh motion |
 //! | [`kernel`] | residual and tangent of one element and of its boundary facets |
-//! | [`stabilization`] | tau_M, tau_C and their derivatives |
+//! | [`stabilization`] | `tau_M`, `tau_C` and their derivatives |
 //! | [`FluidSolver`] | one time step at a time: begin, impose, iterate, commit or rewind |
 //! | [`FluidState`] | what a checkpoint holds |
 //!
-//! Vectors over the fluid are indexed `node * (D + 1) + c`: velocity [m/s] first, pressure [Pa] last.
+//! Vectors over the fluid are indexed `node * (D + 1) + c`: velocity `[m/s]` first, pressure `[Pa]` last.
 //! Prescribed dofs are eliminated; the residual is kept on all dofs, so that its prescribed rows are the
 //! forces that hold the values.
 

@@ -3,17 +3,17 @@
 use std::fmt;
 use std::sync::Arc;
 
-/// A vector field of place [m] and time [s].
+/// A vector field of place `[m]` and time `[s]`.
 pub type VectorField<const D: usize> = Arc<dyn Fn(&[f64; D], f64) -> [f64; D] + Send + Sync>;
 
 /// An incompressible Newtonian fluid and what acts on it.
 #[derive(Debug, Clone)]
 pub struct FluidModel<const D: usize> {
-    /// rho [kg/m^3], positive.
+    /// rho `[kg/m^3]`, positive.
     pub density: f64,
-    /// mu [Pa s], not negative; positive for a steady flow.
+    /// mu `[Pa s]`, not negative; positive for a steady flow.
     pub viscosity: f64,
-    /// b [m/s^2].
+    /// b `[m/s^2]`.
     pub body_force: BodyForce<D>,
     /// One condition for each boundary group of the mesh, by its name.
     ///
@@ -25,7 +25,7 @@ pub struct FluidModel<const D: usize> {
     pub initial: InitialState<D>,
 }
 
-/// A force per mass [m/s^2].
+/// A force per mass `[m/s^2]`.
 #[derive(Clone)]
 pub enum BodyForce<const D: usize> {
     /// The same everywhere and always: gravity.
@@ -39,24 +39,24 @@ pub enum BodyForce<const D: usize> {
 pub enum InitialState<const D: usize> {
     /// Zero velocity and pressure.
     Rest,
-    /// This velocity [m/s] at t = 0, and zero pressure.
+    /// This velocity `[m/s]` at t = 0, and zero pressure.
     Velocity(VectorField<D>),
 }
 
 /// What holds on one boundary group. `w` is the velocity of the mesh.
 #[derive(Clone)]
 pub enum BoundaryCondition<const D: usize> {
-    /// u given [m/s], evaluated where the node is.
+    /// u given `[m/s]`, evaluated where the node is.
     Velocity(VectorField<D>),
     /// u = w. On a group whose mesh nodes slide, the wall stands still and u = 0.
     NoSlip,
-    /// A wall with a given displacement from the reference mesh [m], evaluated at the reference point; u = w.
+    /// A wall with a given displacement from the reference mesh `[m]`, evaluated at the reference point; u = w.
     WallMotion(VectorField<D>),
     /// u.n = w.n and no tangential stress, on walls of any direction: the unknowns of a node are turned into
     /// normal and tangents, with the normal `sum over facets of (N_a, n)` of the present mesh. Where facets
     /// meet at an angle above [`SLIP_CORNER`], each side holds its own normal component.
     Slip,
-    /// (-p I + mu (grad u + grad u^T)) n = h [Pa] given, evaluated where the node is.
+    /// (-p I + mu (grad u + grad u^T)) n = h `[Pa]` given, evaluated where the node is.
     Traction(VectorField<D>),
     /// -p n + mu (grad u) n = 0: a developed channel flow leaves undisturbed.
     DoNothing {
@@ -73,7 +73,7 @@ pub enum BoundaryCondition<const D: usize> {
     Interface,
 }
 
-/// Facets of slip walls whose normals differ by more than this angle [rad] form a corner: 40 degrees, between
+/// Facets of slip walls whose normals differ by more than this angle `[rad]` form a corner: 40 degrees, between
 /// the facets of a coarsely meshed curve and the corners of a body.
 pub const SLIP_CORNER: f64 = 40.0 * std::f64::consts::PI / 180.0;
 

@@ -11,7 +11,7 @@ use crate::stabilization::INVERSE_CONSTANT;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TimeScheme {
-    /// No time derivative and no 4/dt^2 in tau_M; the mesh velocity is zero.
+    /// No time derivative and no `4/dt^2` in `tau_M`; the mesh velocity is zero.
     Steady,
     /// Backward differences of this order with steps of any size; the first step is of order one.
     Bdf(BdfOrder),
@@ -24,7 +24,7 @@ pub enum Tangent {
     /// The derivative of the residual, d tau/du included: quadratic convergence.
     #[default]
     Full,
-    /// The derivative with tau_M and tau_C held: linear convergence, fast where tau changes little.
+    /// The derivative with `tau_M` and `tau_C` held: linear convergence, fast where tau changes little.
     FrozenTau,
     /// The derivative with the convective velocity u - w held, and with it tau: linear convergence from
     /// far away.
@@ -36,7 +36,7 @@ pub enum Tangent {
 pub struct PressurePin {
     /// The node whose pressure is prescribed.
     pub node: usize,
-    /// Its pressure [Pa].
+    /// Its pressure `[Pa]`.
     pub pressure: f64,
 }
 
@@ -47,7 +47,7 @@ pub struct FluidSettings {
     pub time: TimeScheme,
     /// The derivative Newton's method uses.
     pub tangent: Tangent,
-    /// C_I of tau_M, see [`INVERSE_CONSTANT`].
+    /// `C_I` of `tau_M`, see [`INVERSE_CONSTANT`].
     pub inverse_constant: f64,
     /// When Newton's method stops.
     pub newton: newton::Settings,

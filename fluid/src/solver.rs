@@ -119,7 +119,7 @@ impl<const D: usize> FluidSolver<D> {
         })
     }
 
-    /// u [m/s] and p [Pa] of the latest iterate on all dofs, `node * (D + 1) + c`, pressure last.
+    /// u `[m/s]` and p `[Pa]` of the latest iterate on all dofs, `node * (D + 1) + c`, pressure last.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.trial.values
@@ -144,19 +144,19 @@ impl<const D: usize> FluidSolver<D> {
         &self.mesh
     }
 
-    /// The nodes of the moved mesh [m].
+    /// The nodes of the moved mesh `[m]`.
     #[must_use]
     pub fn points(&self) -> &[[f64; D]] {
         &self.trial.points
     }
 
-    /// Displacement of the mesh from its reference [m], `node * D + c`.
+    /// Displacement of the mesh from its reference `[m]`, `node * D + c`.
     #[must_use]
     pub fn displacement(&self) -> &[f64] {
         &self.trial.displacement
     }
 
-    /// Velocity of the mesh in this step [m/s], `node * D + c`.
+    /// Velocity of the mesh in this step `[m/s]`, `node * D + c`.
     #[must_use]
     pub fn mesh_velocity(&self) -> &[f64] {
         &self.trial.mesh_velocity

@@ -7,17 +7,17 @@ use crate::error::FluidError;
 /// All that a fluid remembers between time steps. A solver that restores it continues bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FluidState {
-    /// t_n [s].
+    /// `t_n` `[s]`.
     pub time: f64,
-    /// t_n - t_{n-1} [s]; nothing before the first step.
+    /// `t_n - t_{n-1}` `[s]`; nothing before the first step.
     pub last_dt: Option<f64>,
-    /// u [m/s] and p [Pa] at t_n, `node * (D + 1) + c`.
+    /// u `[m/s]` and p `[Pa]` at `t_n`, `node * (D + 1) + c`.
     pub values: Vec<f64>,
-    /// The same at t_{n-1}.
+    /// The same at `t_{n-1}`.
     pub previous_values: Vec<f64>,
-    /// Displacement of the mesh from its reference at t_n [m], `node * D + c`.
+    /// Displacement of the mesh from its reference at `t_n` `[m]`, `node * D + c`.
     pub displacement: Vec<f64>,
-    /// The same at t_{n-1}.
+    /// The same at `t_{n-1}`.
     pub previous_displacement: Vec<f64>,
 }
 

@@ -13,7 +13,7 @@ use crate::solver::FluidSolver;
 use crate::state::FluidState;
 
 impl<const D: usize> FluidSolver<D> {
-    /// Starts the step of `dt` [s] that ends at `time` [s], from the committed state with the prescribed values
+    /// Starts the step of `dt` `[s]` that ends at `time` `[s]`, from the committed state with the prescribed values
     /// of `time`. Walls with a motion of their own have moved; the interface is where it was committed until
     /// [`impose`](Self::impose) says otherwise. A steady flow takes `dt` for nothing.
     ///
@@ -41,7 +41,7 @@ impl<const D: usize> FluidSolver<D> {
         self.follow_mesh(time)
     }
 
-    /// Moves the interface: total displacement from the reference mesh [m] at the
+    /// Moves the interface: total displacement from the reference mesh `[m]` at the
     /// [`interface_nodes`](Self::interface_nodes), `point * D + c`. The mesh follows, and with it mesh
     /// velocity, prescribed values and loads.
     ///
@@ -63,7 +63,7 @@ impl<const D: usize> FluidSolver<D> {
         self.follow_mesh(time)
     }
 
-    /// Moves the whole mesh: total displacement [m] of all nodes, `node * D + c`. Nothing is solved for; walls
+    /// Moves the whole mesh: total displacement `[m]` of all nodes, `node * D + c`. Nothing is solved for; walls
     /// and interface go where it says.
     ///
     /// # Errors

@@ -10,14 +10,14 @@ use crate::state::FluidState;
 
 /// Everything that a step changes before it is committed.
 pub(crate) struct Trial<const D: usize> {
-    /// t_{n+1} [s] and its distance from t_n; nothing outside a step.
+    /// `t_{n+1}` `[s]` and its distance from `t_n`; nothing outside a step.
     pub(crate) step: Option<(f64, f64)>,
-    /// D_t; nothing in steady flow.
+    /// `D_t`; nothing in steady flow.
     pub(crate) bdf: Option<Bdf>,
     pub(crate) flow: Flow,
     /// u and p, `node * (D + 1) + c`.
     pub(crate) values: Vec<f64>,
-    /// c_1 u^n + c_2 u^{n-1}, `node * D + c`.
+    /// `c_1 u^n + c_2 u^{n-1}`, `node * D + c`.
     pub(crate) history: Vec<f64>,
     /// b, `node * D + c`.
     pub(crate) body_force: Vec<f64>,
@@ -113,7 +113,7 @@ fn check_measures<const D: usize>(mesh: &Mesh<D>, points: &[[f64; D]]) -> Result
     Ok(())
 }
 
-/// Area or volume of the mesh under a displacement [m^D].
+/// Area or volume of the mesh under a displacement `[m^D]`.
 pub(crate) fn volume<const D: usize>(mesh: &Mesh<D>, displacement: &[f64]) -> f64 {
     let measure = |nodes: &[usize]| {
         let mut vertices = simplex::vertices(mesh.points(), nodes);

@@ -9,7 +9,7 @@ use crate::model::{BoundaryCondition, FluidModel};
 /// What a natural condition adds to the residual.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Natural<const D: usize> {
-    /// Values of h [Pa] at the facet's nodes, in the order of the cell's.
+    /// Values of h `[Pa]` at the facet's nodes, in the order of the cell's.
     Traction { condition: usize, values: [[f64; D]; D] },
     /// The transposed stress of do-nothing, the backflow term, or both.
     Outflow { do_nothing: bool, backflow: bool },

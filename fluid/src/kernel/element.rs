@@ -9,15 +9,15 @@ use crate::stabilization::{Stabilization, metric};
 /// What all elements of a step share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flow {
-    /// rho [kg/m^3].
+    /// rho `[kg/m^3]`.
     pub density: f64,
-    /// mu [Pa s].
+    /// mu `[Pa s]`.
     pub viscosity: f64,
-    /// C_I of tau_M.
+    /// `C_I` of `tau_M`.
     pub inverse_constant: f64,
-    /// c_0 of the time derivative D_t u = c_0 u + history [1/s]; zero for a steady flow.
+    /// `c_0` of the time derivative `D_t u = c_0 u + history` `[1/s]`; zero for a steady flow.
     pub rate: f64,
-    /// 4/dt^2 of tau_M [1/s^2]; zero for a steady flow.
+    /// `4/dt^2` of `tau_M` `[1/s^2]`; zero for a steady flow.
     pub four_over_dt_squared: f64,
     /// Which derivative the tangent is.
     pub tangent: Tangent,
@@ -26,23 +26,23 @@ pub struct Flow {
 /// Nodal values of one element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fields<const D: usize, const N: usize> {
-    /// Where the nodes are now [m].
+    /// Where the nodes are now `[m]`.
     pub points: [[f64; D]; N],
-    /// u [m/s].
+    /// u `[m/s]`.
     pub velocity: [[f64; D]; N],
-    /// p [Pa].
+    /// p `[Pa]`.
     pub pressure: [f64; N],
-    /// c = u - w [m/s].
+    /// c = u - w `[m/s]`.
     pub convective: [[f64; D]; N],
-    /// c_1 u^n + c_2 u^{n-1} [m/s^2].
+    /// `c_1 u^n + c_2 u^{n-1}` `[m/s^2]`.
     pub history: [[f64; D]; N],
-    /// b [m/s^2].
+    /// b `[m/s^2]`.
     pub body_force: [[f64; D]; N],
 }
 
-/// Shape-function gradients [1/m] and measure [m^D] of a simplex.
+/// Shape-function gradients `[1/m]` and measure `[m^D]` of a simplex.
 ///
-/// With the edges `x_a - x_0` as rows of A, grad N_a is column a - 1 of A^-1 and V = det A / D!.
+/// With the edges `x_a - x_0` as rows of A, `grad N_a` is column `a - 1` of `A^-1`, and `V = det A / D!`.
 ///
 /// # Panics
 ///
@@ -67,7 +67,7 @@ pub fn shape<const D: usize, const N: usize>(points: &[[f64; D]; N]) -> ([[f64; 
 pub struct Element<const D: usize, const N: usize> {
     pub(super) flow: Flow,
     pub(super) fields: Fields<D, N>,
-    /// grad N_a.
+    /// `grad N_a`.
     pub(super) gradients: [[f64; D]; N],
     /// V.
     pub(super) measure: f64,
@@ -77,13 +77,13 @@ pub struct Element<const D: usize, const N: usize> {
     pub(super) velocity_gradient: [[f64; D]; D],
     /// grad p.
     pub(super) pressure_gradient: [f64; D],
-    /// D_t u at the nodes.
+    /// `D_t u` at the nodes.
     pub(super) acceleration: [[f64; D]; N],
     /// L c at the nodes.
     pub(super) convection: [[f64; D]; N],
-    /// r_M at the nodes.
+    /// `r_M` at the nodes.
     pub(super) strong_residual: [[f64; D]; N],
-    /// Sums over the nodes of c and of r_M.
+    /// Sums over the nodes of c and of `r_M`.
     pub(super) convective_sum: [f64; D],
     pub(super) strong_sum: [f64; D],
     /// tau.
@@ -160,13 +160,13 @@ impl<const D: usize, const N: usize> Element<D, N> {
         }
     }
 
-    /// V [m^D].
+    /// V `[m^D]`.
     #[must_use]
     pub fn measure(&self) -> f64 {
         self.measure
     }
 
-    /// tau_M and tau_C.
+    /// `tau_M` and `tau_C`.
     #[must_use]
     pub fn stabilization(&self) -> &Stabilization<D> {
         &self.tau
@@ -217,7 +217,7 @@ impl<const D: usize, const N: usize> Element<D, N> {
         terms
     }
 
-    /// (r_M, c) as a tensor: integral of `r_i c_j`.
+    /// `(r_M, c)` as a tensor: the integral of `r_i c_j`.
     #[inline]
     pub(super) fn streamline_stress(&self) -> [[f64; D]; D] {
         let mut stress = [[0.0; D]; D];

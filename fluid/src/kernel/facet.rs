@@ -1,7 +1,7 @@
 //! What a boundary facet adds to the rows of the element behind it.
 //!
 //! A facet is named by the local node opposite to it. Its area vector S (outward normal times area) follows
-//! from that node's shape function: S = -D V grad N_opposite.
+//! from that node's shape function: `S = -D V grad N_opposite`.
 
 use super::element::{Element, dot};
 use super::terms::{Term, Terms};
@@ -21,7 +21,7 @@ pub struct Facet<'a, const D: usize, const N: usize> {
 }
 
 impl<const D: usize, const N: usize> Facet<'_, D, N> {
-    /// `- <q_u, h>` for nodal values of the traction h [Pa], interpolated linearly.
+    /// `- <q_u, h>` for nodal values of the traction h `[Pa]`, interpolated linearly.
     pub fn traction(&mut self, traction: &[[f64; D]; D]) {
         let area = self.area_vector().iter().map(|s| s * s).sum::<f64>().sqrt();
         let product = area / (D * (D + 1)) as f64;

@@ -77,21 +77,21 @@ impl<const D: usize, const N: usize> Element<D, N> {
 struct Shared<const D: usize, const N: usize> {
     /// 1 where the convective velocity follows u, 0 where it is held.
     newton: f64,
-    /// d tau_M and d tau_C by one node's velocity; zero where tau is held.
+    /// Derivatives of `tau_M` and `tau_C` by one node's velocity; zero where tau is held.
     slope: [f64; D],
     continuity_slope: [f64; D],
-    /// (N_a, c.grad N_b).
+    /// `(N_a, c.grad N_b)`.
     advection: [[f64; N]; N],
-    /// (c.grad N_a, c.grad N_b).
+    /// `(c.grad N_a, c.grad N_b)`.
     streamline: [[f64; N]; N],
-    /// grad N_a . sum_b c_b.
+    /// `grad N_a . sum_b c_b`.
     along: [f64; N],
-    /// (N_a, r_M).
+    /// `(N_a, r_M)`.
     weighted_residual: [[f64; D]; N],
-    /// (c.grad N_a, r_M) and (grad N_a, r_M) / rho: what tau_M multiplies.
+    /// `(c.grad N_a, r_M)` and `(grad N_a, r_M) / rho`: what `tau_M` multiplies.
     streamline_force: [[f64; D]; N],
     smoothing_force: [f64; N],
-    /// grad N_a L.
+    /// `grad N_a L`.
     convected_test: [[f64; D]; N],
     /// Integral of div u.
     divergence: f64,

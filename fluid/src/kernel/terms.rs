@@ -7,19 +7,19 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(usize)]
 pub enum Term {
-    /// rho D_t u; in continuity its part of the pressure stabilization.
+    /// `rho D_t u`; in continuity its part of the pressure stabilization.
     Rate,
-    /// rho c.grad u; in continuity its part of the pressure stabilization.
+    /// `rho c.grad u`; in continuity its part of the pressure stabilization.
     Convection,
-    /// -rho b; in continuity its part of the pressure stabilization.
+    /// `-rho b`; in continuity its part of the pressure stabilization.
     BodyForce,
-    /// grad p, in weak form; in continuity its part of the pressure stabilization.
+    /// `grad p`, in weak form; in continuity its part of the pressure stabilization.
     Pressure,
     /// Viscous stress; momentum only.
     Viscosity,
-    /// tau_M (c.grad q_u, r_M); momentum only.
+    /// `tau_M (c.grad q_u, r_M)`; momentum only.
     Streamline,
-    /// tau_C (div q_u, div u) in momentum, (q_p, div u) in continuity.
+    /// `tau_C (div q_u, div u)` in momentum, `(q_p, div u)` in continuity.
     Divergence,
     /// Tractions and outflow terms; momentum only.
     Boundary,
@@ -31,9 +31,9 @@ pub const TERMS: usize = 8;
 /// Contributions of one element to the residual, by node and term. Their sum is the residual.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Terms<const D: usize, const N: usize> {
-    /// `momentum[a][i][term]` [N/m in 2D, N in 3D].
+    /// `momentum[a][i][term]` `[N/m in 2D, N in 3D]`.
     pub momentum: [[[f64; TERMS]; D]; N],
-    /// `continuity[a][term]` [m^2/s in 2D, m^3/s in 3D].
+    /// `continuity[a][term]` `[m^2/s in 2D, m^3/s in 3D]`.
     pub continuity: [[f64; TERMS]; N],
     /// Size of the momentum terms before anything cancels: what their round-off is relative to.
     pub momentum_size: f64,

@@ -1,7 +1,7 @@
 //! Consistent forces balance: what the boundary does to the fluid is what changes its momentum.
 
 use partita_fluid::{BodyForce, BoundaryCondition, FluidModel, FluidSolver, TimeScheme};
-use partita_numerics::newton::{Bound, Limit};
+use partita_numerics::newton::Limit;
 
 use crate::common::*;
 
@@ -20,9 +20,7 @@ fn channel(time: TimeScheme) -> FluidSolver<2> {
             ("top", BoundaryCondition::Traction(field(|_, _| TRACTION))),
         ]))
     };
-    let mut settings = settings(time);
-    settings.newton.bound = Bound::Relative(1e-13);
-    FluidSolver::new(unit_square(6), model, settings).expect("a fluid")
+    FluidSolver::new(unit_square(6), model, exacting(time)).expect("a fluid")
 }
 
 /// Displacement of the bottom: a bump that grows and shifts.
@@ -32,7 +30,7 @@ fn bump(fluid: &FluidSolver<2>, t: f64) -> Vec<f64> {
     fluid.interface_nodes().iter().flat_map(|node| displacement(point(node))).collect()
 }
 
-/// Integral of rho (D_t u + (u - w).grad u - b) by the midpoints of the edges, exact for these products.
+/// Integral of rho (`D_t` u + (u - w).grad u - b) by the midpoints of the edges, exact for these products.
 fn rate_of_momentum(fluid: &FluidSolver<2>, acceleration: &[f64]) -> [f64; 2] {
     let mut total = [0.0; 2];
     for nodes in fluid.mesh().cells() {

@@ -8,7 +8,7 @@ use partita_fluid::{
 };
 use partita_mesh::Mesh;
 use partita_mesh::generate::{CuboidMesh, Diagonal, RectangleMesh, cuboid, rectangle};
-use partita_numerics::newton::Limit;
+use partita_numerics::newton::{self, Bound, Limit};
 use partita_numerics::time::BdfOrder;
 
 pub(crate) const BDF1: TimeScheme = TimeScheme::Bdf(BdfOrder::One);
@@ -100,6 +100,12 @@ pub(crate) fn model<const D: usize>(boundary: Vec<(String, BoundaryCondition<D>)
 
 pub(crate) fn settings(time: TimeScheme) -> FluidSettings {
     FluidSettings { time, ..FluidSettings::default() }
+}
+
+/// Settings under which Newton's method goes on to round-off.
+pub(crate) fn exacting(time: TimeScheme) -> FluidSettings {
+    let newton = newton::Settings { bound: Bound::Relative(1e-13), ..newton::Settings::default() };
+    FluidSettings { newton, ..settings(time) }
 }
 
 /// One step on a mesh that does not move.

@@ -39,7 +39,7 @@ fn raise(fluid: &mut FluidSolver<2>, by: f64) {
     fluid.impose(&rise).expect("a motion");
 }
 
-/// Uniform motion and a pressure that is linear: rho (D_t v + g) times the depth, to round-off.
+/// Uniform motion and a pressure that is linear: rho (`D_t` v + g) times the depth, to round-off.
 #[test]
 fn piston_moves_the_fluid_as_one_body() {
     for time in [BDF1, BDF2] {
@@ -105,7 +105,7 @@ fn new_interface_data_of_a_round_replaces_the_old() {
     assert_eq!(direct.displacement(), rounds.displacement());
 }
 
-/// The fluid takes in the flux of w, the shape changes by D_t of the area: equal up to O(dt^order) where the
+/// The fluid takes in the flux of w, the shape changes by `D_t` of the area: equal up to O(dt^order) where the
 /// boundary moves both ways.
 #[test]
 fn volume_defect_falls_with_the_order_of_the_scheme() {

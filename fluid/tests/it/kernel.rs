@@ -1,9 +1,10 @@
 //! The element kernel against finite differences of itself.
 
 use partita_fluid::kernel::facet::Facet;
-use partita_fluid::kernel::{Element, Fields, Flow, Terms};
+use partita_fluid::kernel::{Element, Fields, Flow, Terms, shape};
 use partita_fluid::settings::Tangent;
 use partita_fluid::stabilization::Stabilization;
+use partita_numerics::gauss;
 use proptest::prelude::*;
 
 const TANGENTS: [Tangent; 3] = [Tangent::Full, Tangent::FrozenTau, Tangent::Picard];
@@ -229,6 +230,61 @@ fn residual_and_tangent_do_not_know_the_numbering() {
     }
 }
 
+/// The weak form as it stands in the book, by quadrature of degree four: nothing of the kernel but tau.
+fn weak_form<const D: usize, const N: usize>(case: &Case<D, N>, points: &[([f64; N], f64)]) -> Vec<f64> {
+    let Case { fields, flow, .. } = case;
+    let (gradients, measure) = shape(&fields.points);
+    let tau = case.held();
+    let slope =
+        |value: &dyn Fn(usize) -> f64, j: usize| (0..N).map(|a| value(a) * gradients[a][j]).sum::<f64>();
+    let velocity_slope = |i: usize, j: usize| slope(&|a| fields.velocity[a][i], j);
+    let divergence: f64 = (0..D).map(|i| velocity_slope(i, i)).sum();
+    let mut residual = vec![0.0; N * (D + 1)];
+    for (barycentric, weight) in points {
+        let at = |nodal: &[[f64; D]; N], i: usize| (0..N).map(|a| barycentric[a] * nodal[a][i]).sum::<f64>();
+        let pressure: f64 = (0..N).map(|a| barycentric[a] * fields.pressure[a]).sum();
+        let inertia: [f64; D] = std::array::from_fn(|i| {
+            let rate = flow.rate * at(&fields.velocity, i) + at(&fields.history, i);
+            let convection: f64 = (0..D).map(|j| at(&fields.convective, j) * velocity_slope(i, j)).sum();
+            flow.density * (rate + convection - at(&fields.body_force, i))
+        });
+        let strong: [f64; D] = std::array::from_fn(|i| inertia[i] + slope(&|a| fields.pressure[a], i));
+        for a in 0..N {
+            let along: f64 = (0..D).map(|j| at(&fields.convective, j) * gradients[a][j]).sum();
+            for i in 0..D {
+                let viscous: f64 = (0..D)
+                    .map(|j| flow.viscosity * (velocity_slope(i, j) + velocity_slope(j, i)) * gradients[a][j])
+                    .sum();
+                let galerkin = barycentric[a] * inertia[i] + viscous - pressure * gradients[a][i];
+                let stabilization =
+                    tau.momentum * along * strong[i] + tau.continuity * gradients[a][i] * divergence;
+                residual[a * (D + 1) + i] += weight * measure * (galerkin + stabilization);
+            }
+            let smoothing: f64 = (0..D).map(|i| gradients[a][i] * strong[i]).sum();
+            residual[a * (D + 1) + D] +=
+                weight * measure * (barycentric[a] * divergence + tau.momentum / flow.density * smoothing);
+        }
+    }
+    residual
+}
+
+fn assert_is_weak_form<const D: usize, const N: usize>(numbers: &[f64], points: &[([f64; N], f64)]) {
+    let case = Case::<D, N>::new(numbers, false, Tangent::Full);
+    let found = case.residual(case.fields.velocity, case.fields.pressure, Part::Interior);
+    let expected = weak_form(&case, points);
+    let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+    for (row, (found, expected)) in found.iter().zip(&expected).enumerate() {
+        assert!((found - expected).abs() < 1e-13 * size, "row {row}: {found} and {expected}");
+    }
+}
+
+#[test]
+fn residual_is_the_weak_form_by_quadrature() {
+    let numbers: Vec<f64> = (0..84).map(|k| f64::sin(f64::from(5 * k * k))).collect();
+    assert_is_weak_form::<2, 3>(&numbers, gauss::triangle(4));
+    assert_is_weak_form::<3, 4>(&numbers, gauss::tetrahedron(4));
+}
+
 /// On one element, the sum over the test functions of the momentum rows is the integral of the strong form
 /// without stresses: the stabilization terms, like the stresses, drop out.
 #[test]
@@ -242,4 +298,29 @@ fn momentum_rows_of_an_element_sum_to_its_inertia() {
         let inertia: f64 = (0..4).flat_map(|a| terms.momentum[a][i][..3].to_vec()).sum();
         assert!((rows - inertia).abs() < 1e-12);
     }
+}
+
+/// Uniform flow in through a facet: one half of rho (-c.n) u times its area, shared by its nodes alike.
+#[test]
+fn backflow_takes_out_the_energy_that_enters() {
+    let mut case = Case::<2, 3>::new(&[0.1; 84], false, Tangent::Full);
+    case.fields.velocity = [[2.0, 0.5]; 3];
+    case.fields.convective = [[2.0, 0.5]; 3];
+    let element = Element::new(&case.fields, &case.flow);
+    let [from, to] = [case.fields.points[2], case.fields.points[0]];
+    let outflux = 2.0 * (to[1] - from[1]) - 0.5 * (to[0] - from[0]);
+    assert!(outflux < 0.0, "the flow enters through the facet opposite to node 1");
+    let mut terms = Terms::ZERO;
+    Facet { element: &element, opposite: 1, terms: &mut terms, tangent: None }.backflow();
+    for (a, share) in [(0, 0.5), (1, 0.0), (2, 0.5)] {
+        let row = terms.momentum_sum(a);
+        for i in 0..2 {
+            let expected = -0.5 * 1.3 * outflux * [2.0, 0.5][i] * share;
+            assert!((row[i] - expected).abs() < 1e-14, "{row:?}");
+        }
+    }
+    // Nothing where it leaves.
+    let mut terms = Terms::ZERO;
+    Facet { element: &element, opposite: 0, terms: &mut terms, tangent: None }.backflow();
+    assert_eq!(terms, Terms::ZERO);
 }

@@ -1,5 +1,7 @@
 //! Integration tests of the fluid.
 
+#![allow(clippy::float_cmp, reason = "prescribed and restored values arrive to the bit")]
+
 mod balance;
 mod common;
 mod conditions;

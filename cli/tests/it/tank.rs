@@ -20,10 +20,7 @@ fn tank(overrides: &[&str]) -> Resolved {
 }
 
 fn limits(fluid: &str, structure: &str) -> [String; 2] {
-    [
-        format!("coupling.newton.fixed.fluid={fluid}"),
-        format!("coupling.newton.fixed.structure={structure}"),
-    ]
+    [format!("coupling.newton.fixed.fluid={fluid}"), format!("coupling.newton.fixed.structure={structure}")]
 }
 
 /// Steps a run and returns its records.
@@ -44,28 +41,34 @@ fn iterations(records: &[Record]) -> impl Iterator<Item = &IterationRecord> {
 
 #[test]
 fn first_steps_of_the_tank_cost_what_they_did() {
-    let mut table = String::from("N^f N^s  coupling  fluid  structure\n");
+    let mut table = vec!["N^f N^s  coupling  fluid  structure".to_owned()];
     for (fluid, structure) in [("1", "1"), ("unlimited", "unlimited"), ("2", "3"), ("unlimited", "1")] {
         let [of_fluid, of_structure] = limits(fluid, structure);
         let scene = tank(&[&of_fluid, &of_structure]).scene;
         let records = records(&mut build::run(&scene).expect("the scene builds"), &scene, 5);
         let newton = |field: usize| iterations(&records).map(|k| k.fields[field].newton).sum::<usize>();
         let coupling = iterations(&records).count();
-        table += &format!("{fluid} {structure}: {coupling} {} {}\n", newton(0), newton(1));
+        table.push(format!("{fluid} {structure}: {coupling} {} {}", newton(0), newton(1)));
     }
-    assert_snapshot!(table, @"");
+    assert_snapshot!(table.join("\n"), @r"
+    N^f N^s  coupling  fluid  structure
+    1 1: 63 63 57
+    unlimited unlimited: 39 164 91
+    2 3: 48 96 99
+    unlimited 1: 42 173 42
+    ");
 }
 
 #[test]
 fn no_call_exceeds_its_newton_limit_and_a_converged_structure_costs_nothing() {
-    let [fluid, structure] = limits("2", "3");
+    let [fluid, structure] = limits("1", "1");
     let scene = tank(&[&fluid, &structure]).scene;
-    let records = records(&mut build::run(&scene).expect("the scene builds"), &scene, 3);
+    let records = records(&mut build::run(&scene).expect("the scene builds"), &scene, 5);
     let mut free_calls = 0;
     for iteration in iterations(&records) {
         let [fluid, structure] = &iteration.fields;
-        assert!((1..=2).contains(&fluid.newton), "a lagged fluid call costs one iteration at least");
-        assert!(structure.newton <= 3);
+        assert_eq!(fluid.newton, 1, "a lagged fluid call costs one iteration at least");
+        assert!(structure.newton <= 1);
         assert_eq!(structure.newton == 0, structure.entry_converged);
         free_calls += usize::from(structure.newton == 0);
     }
@@ -84,9 +87,9 @@ fn virtual_work_is_kept_between_the_meshes() {
 #[test]
 fn gravity_rests_on_the_bottom_at_the_first_instant_of_a_stiff_tank() {
     // A bottom that hardly gives way carries the weight of the fluid, rho g L H = 9810 N/m, but for what hangs on the
-    // walls by viscosity; with slip walls nothing does.
+    // walls by viscosity; with slip walls nothing does. (At 1e15 Pa the 0.012 N/m that accelerate the fluid show.)
     let scene = tank(&[
-        "structure.material.saint_venant_kirchhoff.young_modulus=1e15",
+        "structure.material.saint_venant_kirchhoff.young_modulus=1e18",
         "fluid.boundary.left=slip",
         "fluid.boundary.right=slip",
         "fluid.newton.tolerance={relative=1e-10}",
@@ -103,7 +106,7 @@ fn gravity_rests_on_the_bottom_at_the_first_instant_of_a_stiff_tank() {
 #[test]
 fn both_solvers_keep_the_contract_of_a_participant() {
     let scene = tank(&[
-        "fluid.newton={tolerance={relative=1e-11},check=before}",
+        "fluid.newton={tolerance={relative=1e-11}}",
         "structure.newton={tolerance={relative=1e-11}}",
         "fluid.tangent=full",
     ])
@@ -119,7 +122,8 @@ fn both_solvers_keep_the_contract_of_a_participant() {
     let inputs = [sag(1e-3), sag(-2e-3)];
     let load = |force: f64| vec![force; structure.input()[0].len()];
     let loads = [load(-10.0), load(30.0)];
-    check_participant(fluid, &ParticipantCheck { step, inputs, tolerance: 1e-7 }).expect("the fluid keeps the contract");
+    check_participant(fluid, &ParticipantCheck { step, inputs, tolerance: 1e-7 })
+        .expect("the fluid keeps the contract");
     check_participant(structure, &ParticipantCheck { step, inputs: loads, tolerance: 1e-7 })
         .expect("the structure keeps the contract");
 }
@@ -144,7 +148,8 @@ fn a_resumed_run_equals_the_uninterrupted_one() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
     let [fluid, structure] = limits("2", "3");
-    let tank = tank(&[&fluid, &structure, "time.steps=9", "output.checkpoint_every=4", "output.fields_every=3"]);
+    let tank =
+        tank(&[&fluid, &structure, "time.steps=9", "output.checkpoint_every=4", "output.fields_every=3"]);
     start(&tank, &whole, None).finish().expect("the whole run converges");
     start(&tank, &parts, Some(6)).finish().expect("the first part converges");
     // A killed run has written beyond its checkpoint: the records of step 6 and a line that broke off. It goes on

@@ -1,6 +1,7 @@
 //! Scene files: what is read, what is refused, and in which words.
 
 mod broken;
+mod mutilated;
 mod overrides;
 
 use std::path::Path;

@@ -2,6 +2,8 @@
 
 use insta::assert_snapshot;
 
+use partita::scene::parse;
+
 use super::{SOUND, broken, message};
 
 #[test]
@@ -203,5 +205,68 @@ fn an_absurd_mesh_is_refused() {
      15 │ 
         ╰────
       help: at most 1e8 cells can be asked for
+    "#);
+}
+
+/// The problems of the sound scene under these overrides, a line each.
+fn problems(overrides: &[&str]) -> String {
+    problems_of(SOUND, overrides)
+}
+
+fn problems_of(text: &str, overrides: &[&str]) -> String {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    let error = parse("scene.toml", text, &overrides).expect_err("the scene is broken");
+    error.problems().iter().map(|problem| format!("{problem}\n")).collect()
+}
+
+/// The sound scene without the tables that start with one of these headings.
+fn without(headings: &[&str]) -> String {
+    let tables = SOUND.split("\n[");
+    let kept = tables.filter(|table| !headings.iter().any(|heading| table.starts_with(heading)));
+    kept.collect::<Vec<_>>().join("\n[")
+}
+
+#[test]
+fn every_misfit_has_its_own_words() {
+    let mut all = String::new();
+    for overrides in [
+        &["fluid.mesh_motion.slide=[\"bottom\"]"][..],
+        &["fluid.mesh_motion.slide=[\"lft\"]"],
+        &["fluid.pressure_pin={ point = [0, 0], value = 0 }"],
+        &["structure.clamped=[\"left\", \"left\"]"],
+        &["structure.clamped=[]", "structure.time_scheme=quasi_static"],
+        &["structure.time_scheme=quasi_static", "structure.rayleigh_damping={ mass = 1, stiffness = 0 }"],
+        &["structure.geometry.rectangle.elements=[100000, 100000]"],
+        &["output.probes.drag.fluid_force=ceiling"],
+    ] {
+        all += &problems(overrides);
+    }
+    let fluid = without(&["structure", "coupling"]);
+    let structure = without(&["fluid", "coupling"]);
+    let dry = structure.replace("wetted = [\"top\"]\n", "");
+    let walls = "fluid.boundary={ left = \"slip\", right = \"slip\", top = \"slip\", bottom = \"no_slip\" }";
+    all += &problems_of(&fluid, &[]);
+    all += &problems_of(&fluid, &[walls]);
+    all += &problems_of(&fluid, &[walls, "fluid.boundary.top.wall_motion=[0, 0]"]);
+    all += &problems_of(&structure, &[]);
+    all += &problems_of(&dry, &["coupling.acceleration=aitken"]);
+    all += &problems_of(&dry, &["output.probes.centre.fluid_value=[0, 0]"]);
+    all += &problems_of(&without(&["fluid", "structure", "coupling"]), &[]);
+    assert_snapshot!(all, @r#"
+    mesh nodes cannot slide along `bottom`, which moves itself
+    the mesh has no boundary group `lft`
+    the pressure is fixed twice
+    structure.clamped names `left` twice
+    a quasi-static structure is held nowhere
+    a quasi-static structure has no velocity to damp
+    the structure would have about 1e10 control points
+    the mesh has no boundary group `ceiling`
+    `bottom` is an interface, but the scene has no structure
+    the fluid is enclosed: its pressure is known only up to a constant
+    the fluid is enclosed, and its boundary moves
+    side `top` is wetted, but the scene has no fluid
+    [coupling] needs a [fluid] beside the [structure]
+    probe `centre` needs a fluid
+    the scene has neither a fluid nor a structure
     "#);
 }

@@ -158,7 +158,8 @@ fn explained(hint: String, path: &[String]) -> String {
 fn plain_kind(kind: &str) -> String {
     match kind {
         "f64" => "a number".to_owned(),
-        "i64" | "usize" | "u64" | "u32" => "a whole number".to_owned(),
+        "i64" => "a whole number".to_owned(),
+        "usize" => "zero or a whole number above it".to_owned(),
         "a string" => "text in quotes".to_owned(),
         "a boolean" => "true or false".to_owned(),
         "a sequence" => "a list".to_owned(),

@@ -106,8 +106,14 @@ pub struct Count(usize);
 
 /// A number that is no count of at least one.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{0} is not a count from 1 to {max}", max = Count::MAX)]
-pub struct NotACount(i64);
+pub enum NotACount {
+    /// Zero or below.
+    #[error("{0} is not a count of at least 1")]
+    TooSmall(i64),
+    /// Beyond [`Count::MAX`].
+    #[error("{0} is beyond the largest count, {max}", max = Count::MAX)]
+    TooLarge(i64),
+}
 
 impl Count {
     /// The largest count a scene may ask for: what 32 bits hold.
@@ -119,11 +125,11 @@ impl Count {
     ///
     /// [`NotACount`] for zero, a negative number or more than [`Count::MAX`].
     pub fn new(value: i64) -> Result<Self, NotACount> {
-        usize::try_from(value)
-            .ok()
-            .filter(|count| (1..=Self::MAX).contains(count))
-            .map(Self)
-            .ok_or(NotACount(value))
+        match usize::try_from(value) {
+            Ok(count @ 1..=Self::MAX) => Ok(Self(count)),
+            Ok(1..) => Err(NotACount::TooLarge(value)),
+            _ => Err(NotACount::TooSmall(value)),
+        }
     }
 
     /// The plain count.

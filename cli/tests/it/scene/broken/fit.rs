@@ -216,7 +216,9 @@ fn problems(overrides: &[&str]) -> String {
 fn problems_of(text: &str, overrides: &[&str]) -> String {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
     let error = parse("scene.toml", text, &overrides).expect_err("the scene is broken");
-    error.problems().iter().map(|problem| format!("{problem}\n")).collect()
+    let mut lines: Vec<String> = error.problems().iter().map(ToString::to_string).collect();
+    lines.push(String::new());
+    lines.join("\n")
 }
 
 /// The sound scene without the tables that start with one of these headings.

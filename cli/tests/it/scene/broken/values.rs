@@ -54,7 +54,7 @@ fn a_spectral_radius_above_one_is_refused() {
 #[test]
 fn zero_steps_are_refused() {
     assert_snapshot!(broken("steps = 50", "steps = 0"), @r#"
-      × time.steps: 0 is not a count from 1 to 4294967295
+      × time.steps: 0 is not a count of at least 1
        ╭─[scene.toml:5:9]
      4 │ step = 0.01
      5 │ steps = 0

@@ -121,6 +121,12 @@ impl<const D: usize> Expression<D> {
         stack[0]
     }
 
+    /// Whether the value depends on the position.
+    #[must_use]
+    pub fn uses_position(&self) -> bool {
+        self.operations.iter().any(|operation| matches!(operation, Operation::Coordinate(_)))
+    }
+
     /// The text it was read from.
     #[must_use]
     pub fn text(&self) -> &str {

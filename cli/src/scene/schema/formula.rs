@@ -59,6 +59,16 @@ impl VectorFormula {
         Arc::new(move |position, time| formula.value(position, time))
     }
 
+    /// Whether a component depends on the position.
+    #[must_use]
+    pub fn uses_position(&self) -> bool {
+        let uses = |formula: &Formula| match formula {
+            Formula::Number(_) => false,
+            Formula::Expression(expression) => expression.uses_position(),
+        };
+        self.0.iter().any(uses)
+    }
+
     /// The value, if both components are numbers.
     #[must_use]
     pub fn constant(&self) -> Option<[f64; 2]> {

@@ -16,7 +16,7 @@ use super::numbers::{Count, NonNegative, PoissonRatio, Positive, Real, SpectralR
 pub struct Structure {
     /// Density \[kg/m3\].
     pub density: Positive,
-    /// Force per volume \[N/m3\], numbers or expressions of `x`, `y`, `t`. Default: none.
+    /// Force per volume \[N/m3\], numbers or expressions of `t`. Default: none.
     #[serde(default)]
     pub body_force: VectorFormula,
     /// Sides that do not move. Default: none.

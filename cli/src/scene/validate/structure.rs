@@ -19,6 +19,13 @@ pub(super) fn check(check: &mut Check<'_>, structure: &Structure, coupled: bool)
                 .hint("name it in one of the two"),
         );
     }
+    if structure.body_force.uses_position() {
+        check.add(
+            Finding::new("the body force of a structure is the same everywhere")
+                .mark_if(check.value(&["structure", "body_force"]), "depends on the position")
+                .hint("use the time `t` alone"),
+        );
+    }
     match structure.wetted.first() {
         None if coupled => check.add(
             Finding::new("no side of the structure touches the fluid")

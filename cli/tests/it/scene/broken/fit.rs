@@ -239,6 +239,7 @@ fn every_misfit_has_its_own_words() {
         &["structure.clamped=[]", "structure.time_scheme=quasi_static"],
         &["structure.time_scheme=quasi_static", "structure.rayleigh_damping={ mass = 1, stiffness = 0 }"],
         &["structure.geometry.rectangle.elements=[100000, 100000]"],
+        &["structure.body_force=[0, \"-9.81*y\"]"],
         &["output.probes.drag.fluid_force=ceiling"],
     ] {
         all += &problems(overrides);
@@ -262,6 +263,7 @@ fn every_misfit_has_its_own_words() {
     a quasi-static structure is held nowhere
     a quasi-static structure has no velocity to damp
     the structure would have about 1e10 control points
+    the body force of a structure is the same everywhere
     the mesh has no boundary group `ceiling`
     `bottom` is an interface, but the scene has no structure
     the fluid is enclosed: its pressure is known only up to a constant

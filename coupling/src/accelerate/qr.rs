@@ -248,6 +248,20 @@ mod tests {
     }
 
     #[test]
+    fn nearly_dependent_columns_still_get_an_orthonormal_basis() {
+        let v = columns(8, 4);
+        let mut close = v[0].clone();
+        add_scaled(1e-9, &v[1], &mut close);
+        let mut closer = v[2].clone();
+        add_scaled(1e-10, &v[3], &mut closer);
+        let mut qr = Qr::default();
+        for column in [&close, &v[0], &closer, &v[2]] {
+            qr.push_front(column).unwrap();
+        }
+        assert_factors(&qr, &[&v[2], &closer, &v[0], &close]);
+    }
+
+    #[test]
     fn no_column_fits_beside_a_full_basis() {
         let v = columns(2, 3);
         let mut qr = Qr::default();

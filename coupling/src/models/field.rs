@@ -146,7 +146,6 @@ impl<F: Field> Participant for Model<F> {
     }
 
     fn begin_step(&mut self, step: &Step) -> Result<(), ParticipantError> {
-        self.trial.clone_from(&self.committed);
         self.field.begin_step(step, &self.committed, &mut self.trial);
         Ok(())
     }

@@ -191,6 +191,27 @@ fn step_ends_only_when_every_field_meets_its_own_bound() {
 }
 
 #[test]
+fn each_field_keeps_its_own_newton_limit() {
+    for (first, second) in [
+        (NewtonLimit::AtMost(1), NewtonLimit::ToConvergence),
+        (NewtonLimit::ToConvergence, NewtonLimit::AtMost(1)),
+    ] {
+        let uneven = CouplingSettings { policy: Policy::Fixed { first, second }, ..settings(imvls()) };
+        let mut run = tube(&Tube::default(), &uneven);
+        let mut most = [0; 2];
+        for _ in 0..5 {
+            run.step(DT, &mut ()).unwrap();
+            for record in &run.history().iterations {
+                assert_eq!([record.fields[0].limit, record.fields[1].limit], [first, second]);
+                most = [0, 1].map(|field| most[field].max(record.fields[field].newton));
+            }
+        }
+        let limited = [first, second].map(|limit| limit == NewtonLimit::AtMost(1));
+        assert_eq!(most.map(|newton| newton == 1), limited, "{most:?}");
+    }
+}
+
+#[test]
 fn entry_residuals_end_a_step_only_after_calls_that_had_nothing_to_do() {
     for policy in [fixed(NewtonLimit::AtMost(1)), fixed(NewtonLimit::ToConvergence)] {
         let spenke = CouplingSettings { policy, criterion: Criterion::EntryResiduals, ..settings(imvls()) };

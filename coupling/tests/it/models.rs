@@ -134,6 +134,30 @@ fn newton_on_the_flow_needs_two_iterations() {
 }
 
 #[test]
+fn one_newton_iteration_on_the_flow_leaves_an_error_of_second_order() {
+    let at_hand = Tube::default();
+    let mut run = tube(&at_hand, &settings(imvls()));
+    for _ in 0..5 {
+        run.step(DT, &mut ()).unwrap();
+    }
+    let committed = run.first().state().clone();
+    let rest = |disturbance: f64| {
+        let (mut flow, _) = at_hand.participants().unwrap();
+        flow.restore(committed.clone());
+        flow.begin_step(&Step { index: 6, time: 6.0 * DT, dt: DT }).unwrap();
+        let mut output = vec![0.0; at_hand.cells];
+        let mut wall = committed.displacement.clone();
+        flow.advance(&wall, NewtonLimit::ToConvergence, &mut output).unwrap();
+        for (i, d) in wall.iter_mut().enumerate() {
+            *d += disturbance * (0.2 * i as f64).sin();
+        }
+        flow.advance(&wall, NewtonLimit::AtMost(1), &mut output).unwrap().residual
+    };
+    let order = (rest(1e-6) / rest(5e-7)).log2();
+    assert!((order - 2.0).abs() < 0.05, "order {order}");
+}
+
+#[test]
 fn tube_neither_gains_nor_loses_fluid() {
     let tube_at_hand = Tube::default();
     let mut run = tube(&tube_at_hand, &settings(imvls()));

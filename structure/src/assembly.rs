@@ -4,7 +4,7 @@ use partita_numerics::scatter::add_vector;
 use partita_numerics::{Connectivity, DofMap, Pattern, Scatter};
 
 use crate::elements::Elements;
-use crate::kernel::{self, Scratch};
+use crate::kernel::{self, Blocks};
 use crate::material::Material;
 use crate::model::Rayleigh;
 use crate::step::TangentWeights;
@@ -40,7 +40,7 @@ pub(crate) struct Local<const D: usize> {
     field: Vec<[f64; D]>,
     force: Vec<[f64; D]>,
     matrix: Vec<f64>,
-    scratch: Scratch<D>,
+    blocks: Blocks<D>,
 }
 
 /// Everything about assembly that does not change during a run.
@@ -98,7 +98,7 @@ impl<const D: usize> Assembly<D> {
     /// The same with damping.
     pub(crate) fn with_damping(mut self, rayleigh: Rayleigh) -> Self {
         let linearized = self.material.linearized();
-        let mut matrix = self.matrix(|e, Local { field, force, matrix, scratch }| {
+        let mut matrix = self.matrix(|e, Local { field, force, matrix, blocks }| {
             let element = self.elements.element(e);
             field.fill([0.0; D]);
             let factor = rayleigh.stiffness;
@@ -109,7 +109,7 @@ impl<const D: usize> Assembly<D> {
                 factor,
                 force,
                 matrix,
-                scratch,
+                blocks,
             );
         });
         for (c, m) in matrix.iter_mut().zip(&self.mass) {
@@ -138,7 +138,7 @@ impl<const D: usize> Assembly<D> {
             field: vec![[0.0; D]; nodes],
             force: vec![[0.0; D]; nodes],
             matrix: vec![0.0; (nodes * D).pow(2)],
-            scratch: Scratch::new(nodes),
+            blocks: Blocks::new(nodes),
         }
     }
 
@@ -183,6 +183,18 @@ impl<const D: usize> Assembly<D> {
         volumes
     }
 
+    /// `(N_a, b)` on all dofs for a body force b `[N/m^3]` that depends on the place.
+    pub(crate) fn body_force(&self, b: impl Fn(&[f64; D]) -> [f64; D], force: &mut [f64]) {
+        let mut local = vec![[0.0; D]; self.elements.nodes_per_element()];
+        force.fill(0.0);
+        for e in 0..self.elements.len() {
+            local.fill([0.0; D]);
+            let at_points = self.elements.places(e).iter().map(&b);
+            kernel::add_body_force(self.elements.element(e), at_points, &mut local);
+            add_vector(&self.connectivity, e, local.as_flattened(), force);
+        }
+    }
+
     /// Strain energy of a displacement `[J, in 2D J/m]`.
     pub(crate) fn strain_energy(&self, displacement: &[f64]) -> f64 {
         self.sum(displacement, |e, d| kernel::strain_energy(self.elements.element(e), &self.material, d))
@@ -210,8 +222,7 @@ impl<const D: usize> Assembly<D> {
     }
 
     fn internal_force_and_tangent(&self, e: usize, scale: f64, local: &mut Local<D>) {
-        let Local { field, force, matrix, scratch } = local;
-        matrix.fill(0.0);
+        let Local { field, force, matrix, blocks } = local;
         kernel::add_internal_force_and_tangent(
             self.elements.element(e),
             &self.material,
@@ -219,7 +230,7 @@ impl<const D: usize> Assembly<D> {
             scale,
             force,
             matrix,
-            scratch,
+            blocks,
         );
     }
 

@@ -15,6 +15,7 @@ pub struct Elements<const D: usize> {
     weights: Vec<f64>,
     values: Vec<f64>,
     gradients: Vec<[f64; D]>,
+    places: Vec<[f64; D]>,
 }
 
 impl<const D: usize> Elements<D> {
@@ -28,6 +29,7 @@ impl<const D: usize> Elements<D> {
             weights: Vec::with_capacity(points),
             values: Vec::with_capacity(points * nodes_per_element),
             gradients: Vec::with_capacity(points * nodes_per_element),
+            places: Vec::with_capacity(points),
         }
     }
 
@@ -40,12 +42,14 @@ impl<const D: usize> Elements<D> {
     /// Appends a quadrature point to the last element.
     pub(crate) fn push_point(
         &mut self,
+        place: [f64; D],
         weight: f64,
         values: &[f64],
         gradients: impl ExactSizeIterator<Item = [f64; D]>,
     ) {
         assert_eq!(values.len(), self.nodes_per_element, "one value a node");
         assert_eq!(gradients.len(), self.nodes_per_element, "one gradient a node");
+        self.places.push(place);
         self.weights.push(weight);
         self.values.extend_from_slice(values);
         self.gradients.extend(gradients);
@@ -85,6 +89,12 @@ impl<const D: usize> Elements<D> {
             values: &self.values[entries.clone()],
             gradients: &self.gradients[entries],
         }
+    }
+
+    /// Quadrature points of element `e` in the reference configuration `[m]`.
+    #[must_use]
+    pub fn places(&self, e: usize) -> &[[f64; D]] {
+        &self.places[e * self.points_per_element..][..self.points_per_element]
     }
 
     /// The dofs `node * D + c` of all elements.

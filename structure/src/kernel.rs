@@ -29,17 +29,36 @@ struct Point<'a, const D: usize> {
     gradients: &'a [[f64; D]],
 }
 
-/// Room for the products of gradients at one quadrature point; belongs to the caller, so the kernel allocates nothing.
+/// Room for the blocks of one tangent; belongs to the caller, so that the kernel allocates nothing.
+///
+/// The block of nodes (a, b), a <= b, has the index b (b + 1)/2 + a: the upper triangle, column by column.
 #[derive(Debug, Clone, Default)]
-pub struct Scratch<const D: usize> {
-    pushed: Vec<[f64; D]>,
+pub struct Blocks<const D: usize> {
+    blocks: Vec<[[f64; D]; D]>,
 }
 
-impl<const D: usize> Scratch<D> {
-    /// Room for elements of up to `nodes` nodes.
+impl<const D: usize> Blocks<D> {
+    /// Room for elements of `nodes` nodes.
     #[must_use]
     pub fn new(nodes: usize) -> Self {
-        Self { pushed: vec![[0.0; D]; nodes] }
+        Self { blocks: vec![[[0.0; D]; D]; nodes * (nodes + 1) / 2] }
+    }
+
+    /// Writes the whole tangent, row-major over the dofs `a * D + i`; exactly symmetric, for each pair of entries comes
+    /// from one number.
+    fn expand(&self, nodes: usize, tangent: &mut [f64]) {
+        let row = nodes * D;
+        let mut blocks = self.blocks.iter();
+        for b in 0..nodes {
+            for (a, block) in (0..=b).zip(&mut blocks) {
+                for i in 0..D {
+                    for k in if a == b { i..D } else { 0..D } {
+                        tangent[(a * D + i) * row + b * D + k] = block[i][k];
+                        tangent[(b * D + k) * row + a * D + i] = block[i][k];
+                    }
+                }
+            }
+        }
     }
 }
 
@@ -88,6 +107,16 @@ impl<const D: usize> Point<'_, D> {
         gradient
     }
 
+    /// `force_a += N_a q`
+    #[inline]
+    fn add_value(&self, q: [f64; D], force: &mut [[f64; D]]) {
+        for (f, n) in force.iter_mut().zip(self.values) {
+            for i in 0..D {
+                f[i] += n * q[i];
+            }
+        }
+    }
+
     /// `force_a += w P grad N_a`
     #[inline]
     fn add_stress(&self, stress: &Tensor<D>, force: &mut [[f64; D]]) {
@@ -116,16 +145,15 @@ pub fn add_internal_force<const D: usize>(
     }
 }
 
-/// Internal forces, and their derivative by the displacement: with dP/d(grad d) as in [`crate::Response`],
+/// Internal forces, and their derivative by the displacement: with A = dP/d(grad d) of [`crate::Response`],
 ///
 /// ```text
-/// force_a       += (grad N_a, P)
-/// tangent_ai,bk += scale (grad N_a . G grad N_b) delta_ik + scale lambda p_ai p_bk
-///                + scale mu (p_bi p_ak + (grad N_a . grad N_b) B_ik),        p_a = A grad N_a
+/// force_a      += (grad N_a, P)
+/// tangent_ai,bk = scale (grad N_a, A_i.k. grad N_b)
 /// ```
 ///
-/// `tangent` is row-major over the local dofs `a * D + i`, exactly symmetric if it was before; `scale` is the share
-/// of the unknown in the displacement given (1 - `alpha_f` in generalized-alpha).
+/// `tangent` is overwritten, row-major over the local dofs `a * D + i`, exactly symmetric; `scale` is the share of the
+/// unknown in the displacement given (`1 - alpha_f` in generalized-alpha).
 pub fn add_internal_force_and_tangent<const D: usize>(
     element: Element<D>,
     material: &Material,
@@ -133,41 +161,33 @@ pub fn add_internal_force_and_tangent<const D: usize>(
     scale: f64,
     force: &mut [[f64; D]],
     tangent: &mut [f64],
-    scratch: &mut Scratch<D>,
+    blocks: &mut Blocks<D>,
 ) {
-    let nodes = element.nodes();
-    let row = nodes * D;
-    let pushed = &mut scratch.pushed[..nodes];
+    blocks.blocks.fill([[0.0; D]; D]);
     for point in element.points() {
         let at = material.response(&point.gradient(displacement));
         point.add_stress(&at.stress, force);
 
-        let weight = scale * point.weight;
-        let (lambda, mu) = (weight * at.lambda, weight * at.mu);
-        let geometric: Tensor<D> = tensor::build(|i, j| weight * at.geometric[i][j]);
-        let left: Tensor<D> = tensor::build(|i, j| mu * at.left[i][j]);
-        for (p, g) in pushed.iter_mut().zip(point.gradients) {
-            *p = tensor::apply(&at.push, g);
-        }
-        // Blocks on and above the diagonal; the others follow by symmetry.
-        for a in 0..nodes {
-            let (gradient_a, p_a) = (point.gradients[a], pushed[a]);
-            let geometric_a = tensor::apply(&geometric, &gradient_a);
-            for b in a..nodes {
-                let (gradient_b, p_b) = (point.gradients[b], pushed[b]);
-                let diagonal = tensor::dot(&geometric_a, &gradient_b);
-                let metric = tensor::dot(&gradient_a, &gradient_b);
+        let mut column = blocks.blocks.as_mut_slice();
+        for (b, gradient_b) in point.gradients.iter().enumerate() {
+            // stress_b[J][i][k]: change of w P_iJ when node b moves along k.
+            let weighted = gradient_b.map(|g| scale * point.weight * g);
+            let stress_b: [Tensor<D>; D] =
+                tensor::array(|j| tensor::build(|i, k| tensor::dot(&at.tangent[i][j][k], &weighted)));
+            let (upper, rest) = column.split_at_mut(b + 1);
+            for (block, gradient_a) in upper.iter_mut().zip(point.gradients) {
                 for i in 0..D {
-                    let block = &mut tangent[(a * D + i) * row + b * D..][..D];
                     for k in 0..D {
-                        block[k] += lambda * p_a[i] * p_b[k] + mu * p_b[i] * p_a[k] + metric * left[i][k];
+                        for j in 0..D {
+                            block[i][k] += gradient_a[j] * stress_b[j][i][k];
+                        }
                     }
-                    block[i] += diagonal;
                 }
             }
+            column = rest;
         }
     }
-    mirror(tangent, row);
+    blocks.expand(element.nodes(), tangent);
 }
 
 /// Inertia: `force_a += (N_a, rho a)`.
@@ -178,12 +198,8 @@ pub fn add_inertia<const D: usize>(
     force: &mut [[f64; D]],
 ) {
     for point in element.points() {
-        let momentum = point.value(acceleration).map(|a| point.weight * density * a);
-        for (f, n) in force.iter_mut().zip(point.values) {
-            for i in 0..D {
-                f[i] += n * momentum[i];
-            }
-        }
+        let a = point.value(acceleration);
+        point.add_value(a.map(|a| point.weight * density * a), force);
     }
 }
 
@@ -199,6 +215,17 @@ pub fn add_mass<const D: usize>(element: Element<D>, density: f64, mass: &mut [f
                 }
             }
         }
+    }
+}
+
+/// Body force: `force_a += (N_a, b)` with b `[N/m^3]` given at each quadrature point.
+pub fn add_body_force<const D: usize>(
+    element: Element<D>,
+    body_force: impl Iterator<Item = [f64; D]>,
+    force: &mut [[f64; D]],
+) {
+    for (point, b) in element.points().zip(body_force) {
+        point.add_value(b.map(|b| point.weight * b), force);
     }
 }
 
@@ -232,15 +259,6 @@ pub fn kinetic_energy<const D: usize>(element: Element<D>, density: f64, velocit
             0.5 * density * point.weight * tensor::dot(&v, &v)
         })
         .sum()
-}
-
-/// Copies the upper triangle of a row-major square matrix to the lower one.
-fn mirror(matrix: &mut [f64], size: usize) {
-    for i in 1..size {
-        for j in 0..i {
-            matrix[i * size + j] = matrix[j * size + i];
-        }
-    }
 }
 
 #[cfg(test)]
@@ -282,7 +300,7 @@ mod tests {
         let triangle = Triangle::new();
         let d = [[0.1, -0.2], [0.3, 0.4], [-0.25, 0.15]];
         let (mut force, mut tangent) = ([[0.0; 2]; 3], [0.0; 36]);
-        let mut scratch = Scratch::new(3);
+        let mut blocks = Blocks::new(3);
         add_internal_force_and_tangent(
             triangle.element(),
             &soft(),
@@ -290,7 +308,7 @@ mod tests {
             0.5,
             &mut force,
             &mut tangent,
-            &mut scratch,
+            &mut blocks,
         );
         for column in 0..6 {
             let force_at = |step: f64| {
@@ -314,7 +332,7 @@ mod tests {
         let d = [[0.1, -0.2], [0.3, 0.4], [-0.25, 0.15]];
         let (mut alone, mut together) = ([[0.0; 2]; 3], [[0.0; 2]; 3]);
         add_internal_force(triangle.element(), &soft(), &d, &mut alone);
-        let mut scratch = Scratch::new(3);
+        let mut blocks = Blocks::new(3);
         add_internal_force_and_tangent(
             triangle.element(),
             &soft(),
@@ -322,7 +340,7 @@ mod tests {
             1.0,
             &mut together,
             &mut [0.0; 36],
-            &mut scratch,
+            &mut blocks,
         );
         assert_eq!(alone, together);
     }

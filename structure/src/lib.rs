@@ -37,7 +37,7 @@ mod probe;
 mod tensor;
 
 pub use error::StructureError;
-pub use load::BodyForce;
+pub use load::{BodyForce, VectorField};
 pub use material::{Law, Material, MaterialError, Plane, Response};
 pub use model::{LineSearch, Part, Rayleigh, StructureModel, StructureSettings};
 pub use solver::StructureSolver;

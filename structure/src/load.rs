@@ -3,13 +3,20 @@
 use std::fmt;
 use std::sync::Arc;
 
-/// A force per reference volume `[N/m^3]`, uniform in space.
+use crate::assembly::Assembly;
+
+/// A function of the place `[m]` in the reference configuration and of the time `[s]`.
+pub type VectorField<const D: usize> = Arc<dyn Fn(&[f64; D], f64) -> [f64; D] + Send + Sync>;
+
+/// A force per reference volume b `[N/m^3]`.
 #[derive(Clone)]
 pub enum BodyForce<const D: usize> {
-    /// The same at all times.
+    /// The same everywhere and at all times.
     Constant([f64; D]),
-    /// A function of the time `[s]`.
+    /// The same everywhere, a function of the time `[s]`.
     Time(Arc<dyn Fn(f64) -> [f64; D] + Send + Sync>),
+    /// A function of place and time.
+    Field(VectorField<D>),
 }
 
 impl<const D: usize> BodyForce<D> {
@@ -20,20 +27,17 @@ impl<const D: usize> BodyForce<D> {
     ///
     /// ```
     /// use partita_structure::BodyForce;
+    ///
     /// let ramp = BodyForce::in_time(|t| [0.0, -9.81e3 * t.min(1.0)]);
-    /// assert_eq!(ramp.at(0.5), [0.0, -4.905e3]);
+    /// assert!(matches!(ramp, BodyForce::Time(force) if force(0.5) == [0.0, -4.905e3]));
     /// ```
     pub fn in_time(force: impl Fn(f64) -> [f64; D] + Send + Sync + 'static) -> Self {
         Self::Time(Arc::new(force))
     }
 
-    /// Its value `[N/m^3]` at `time` `[s]`.
-    #[must_use]
-    pub fn at(&self, time: f64) -> [f64; D] {
-        match self {
-            Self::Constant(force) => *force,
-            Self::Time(force) => force(time),
-        }
+    /// A body force that varies in space and time.
+    pub fn in_space(force: impl Fn(&[f64; D], f64) -> [f64; D] + Send + Sync + 'static) -> Self {
+        Self::Field(Arc::new(force))
     }
 }
 
@@ -42,40 +46,62 @@ impl<const D: usize> fmt::Debug for BodyForce<D> {
         match self {
             Self::Constant(force) => f.debug_tuple("Constant").field(force).finish(),
             Self::Time(_) => f.write_str("Time(..)"),
+            Self::Field(_) => f.write_str("Field(..)"),
         }
     }
 }
 
-/// External nodal forces: `external_a = b (N_a, 1) + interface force`, on all control points.
-///
-/// `volumes` holds `(N_a, 1)` `[m^D]` a control point, `interface_force` one vector `[N, in 2D N/m]` for each of
-/// `interface_points`.
-pub(crate) fn external_force<const D: usize>(
-    body_force: [f64; D],
-    volumes: &[f64],
-    interface_points: &[usize],
-    interface_force: &[f64],
-    external: &mut [f64],
-) {
-    let external = external.as_chunks_mut::<D>().0;
-    for (force, volume) in external.iter_mut().zip(volumes) {
-        *force = body_force.map(|b| b * volume);
-    }
-    for (&point, force) in interface_points.iter().zip(interface_force.as_chunks::<D>().0) {
-        for i in 0..D {
-            external[point][i] += force[i];
-        }
-    }
+/// External nodal forces, the body force of one time kept apart from the interface force, which changes within a step.
+#[derive(Debug, Clone)]
+pub(crate) struct Loads<const D: usize> {
+    body_force: BodyForce<D>,
+    /// `(N_a, 1)` of every control point `[m^D]`.
+    volumes: Vec<f64>,
+    /// `(N_a, b)` at the time last asked for, on all dofs.
+    body: Vec<f64>,
+    interface_points: Vec<usize>,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+impl<const D: usize> Loads<D> {
+    pub(crate) fn new(
+        body_force: BodyForce<D>,
+        assembly: &Assembly<D>,
+        interface_points: Vec<usize>,
+    ) -> Self {
+        let volumes = assembly.volumes();
+        let body = vec![0.0; volumes.len() * D];
+        Self { body_force, volumes, body, interface_points }
+    }
 
-    #[test]
-    fn body_and_interface_forces_add_up_at_their_points() {
-        let mut external = vec![7.0; 6];
-        external_force([1.0, -2.0], &[0.5, 0.25, 0.25], &[2], &[10.0, 20.0], &mut external);
-        assert_eq!(external, [0.5, -1.0, 0.25, -0.5, 10.25, 19.5]);
+    /// Control points that carry the interface force.
+    pub(crate) fn interface_points(&self) -> &[usize] {
+        &self.interface_points
+    }
+
+    /// Evaluates the body force at `time`.
+    pub(crate) fn set_time(&mut self, time: f64, assembly: &Assembly<D>) {
+        match &self.body_force {
+            BodyForce::Constant(force) => self.spread(*force),
+            BodyForce::Time(force) => self.spread(force(time)),
+            BodyForce::Field(force) => assembly.body_force(|x| force(x, time), &mut self.body),
+        }
+    }
+
+    /// A uniform b loads each control point with its share of the volume.
+    fn spread(&mut self, b: [f64; D]) {
+        for (force, volume) in self.body.as_chunks_mut::<D>().0.iter_mut().zip(&self.volumes) {
+            *force = b.map(|b| b * volume);
+        }
+    }
+
+    /// All external forces on all dofs, with `interface_force` in the order of the interface points.
+    pub(crate) fn external_force(&self, interface_force: &[f64], external: &mut [f64]) {
+        external.copy_from_slice(&self.body);
+        let external = external.as_chunks_mut::<D>().0;
+        for (&point, force) in self.interface_points.iter().zip(interface_force.as_chunks::<D>().0) {
+            for i in 0..D {
+                external[point][i] += force[i];
+            }
+        }
     }
 }

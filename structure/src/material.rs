@@ -67,35 +67,13 @@ pub struct Material {
     mu: f64,
 }
 
-/// What a material answers to a displacement gradient: its stress, and its tangent in factored form.
-///
-/// Every isotropic law with an energy in the invariants that the crate needs has a tangent of the form
-///
-/// ```text
-/// dP_iJ / d(grad d)_kL = delta_ik G_JL + lambda A_iJ A_kL + mu (A_iL A_kJ + B_ik delta_JL)
-/// ```
-///
-/// | law | G | A | B |
-/// |---|---|---|---|
-/// | linear elastic | 0 | I | I |
-/// | St. Venant-Kirchhoff | S | F | F F^T |
-/// | neo-Hookean | S + mu' C^-1 | F^-T | 0, with mu' = mu - lambda ln J in place of mu |
-///
-/// so the kernel contracts it with two gradients in a handful of products and never forms D^4 entries.
+/// What a material answers to a displacement gradient.
 #[derive(Debug, Clone, Copy)]
 pub struct Response<const D: usize> {
     /// First Piola-Kirchhoff stress P `[Pa]`.
-    pub stress: Tensor<D>,
-    /// G `[Pa]`, symmetric: stiffness of the stress that is already there.
-    pub geometric: Tensor<D>,
-    /// A: carries reference gradients to where the elasticity is isotropic.
-    pub push: Tensor<D>,
-    /// B, symmetric.
-    pub left: Tensor<D>,
-    /// lambda `[Pa]`.
-    pub lambda: f64,
-    /// mu `[Pa]`.
-    pub mu: f64,
+    pub stress: [[f64; D]; D],
+    /// Its derivative `A[i][J][k][L] = dP_iJ / d(grad d)_kL` `[Pa]`, symmetric: `A_iJkL = A_kLiJ`.
+    pub tangent: [[[[f64; D]; D]; D]; D],
 }
 
 impl Material {
@@ -168,29 +146,27 @@ impl Material {
     }
 
     /// Stress and tangent at the displacement gradient `gradient[i][J] = d d_i / d X_J`.
+    ///
+    /// ```text
+    /// linear elastic         P = sigma   A_iJkL = lambda delta_iJ delta_kL + mu (delta_iL delta_kJ + delta_ik delta_JL)
+    /// St. Venant-Kirchhoff   P = F S     A_iJkL = delta_ik S_JL + lambda F_iJ F_kL + mu (F_iL F_kJ + (F F^T)_ik delta_JL)
+    /// ```
     #[inline]
     #[must_use]
     pub fn response<const D: usize>(&self, gradient: &Tensor<D>) -> Response<D> {
-        let (lambda, mu) = (self.lambda, self.mu);
         match self.law {
-            Law::LinearElastic => Response {
-                stress: self.hooke(&small_strain(gradient)),
-                geometric: [[0.0; D]; D],
-                push: tensor::identity(),
-                left: tensor::identity(),
-                lambda,
-                mu,
-            },
+            Law::LinearElastic => {
+                let (one, zero) = (tensor::identity(), [[0.0; D]; D]);
+                let stress = self.hooke(&small_strain(gradient));
+                Response { stress, tangent: self.tangent(&one, &one, &zero) }
+            }
             Law::StVenantKirchhoff => {
                 let f = deformation_gradient(gradient);
                 let s = self.hooke(&green_lagrange(gradient));
+                let left_cauchy_green = tensor::multiply_transposed(&f, &f);
                 Response {
                     stress: tensor::multiply(&f, &s),
-                    geometric: s,
-                    push: f,
-                    left: tensor::multiply_transposed(&f, &f),
-                    lambda,
-                    mu,
+                    tangent: self.tangent(&f, &left_cauchy_green, &s),
                 }
             }
         }
@@ -216,6 +192,19 @@ impl Material {
             Law::StVenantKirchhoff => green_lagrange(gradient),
         };
         0.5 * self.lambda * tensor::trace(&strain).powi(2) + self.mu * tensor::contract(&strain, &strain)
+    }
+
+    /// `A_iJkL = delta_ik S_JL + lambda F_iJ F_kL + mu (F_iL F_kJ + B_ik delta_JL)`
+    #[inline]
+    fn tangent<const D: usize>(&self, f: &Tensor<D>, b: &Tensor<D>, s: &Tensor<D>) -> [[Tensor<D>; D]; D] {
+        let (lambda, mu) = (self.lambda, self.mu);
+        let delta = |i, j| f64::from(u8::from(i == j));
+        let entry = |i: usize, j: usize, k: usize, l: usize| {
+            delta(i, k) * s[j][l]
+                + lambda * f[i][j] * f[k][l]
+                + mu * (f[i][l] * f[k][j] + delta(j, l) * b[i][k])
+        };
+        tensor::array(|i| tensor::array(|j| tensor::build(|k, l| entry(i, j, k, l))))
     }
 
     /// lambda tr(E) I + 2 mu E
@@ -298,10 +287,7 @@ mod tests {
                     let (ahead, behind) = (stress(1e-5), stress(-1e-5));
                     for i in 0..D {
                         for j in 0..D {
-                            let delta = |a, b| if a == b { 1.0 } else { 0.0 };
-                            let tangent = delta(i, k) * r.geometric[j][l]
-                                + r.lambda * r.push[i][j] * r.push[k][l]
-                                + r.mu * (r.push[i][l] * r.push[k][j] + r.left[i][k] * delta(j, l));
+                            let tangent = r.tangent[i][j][k][l];
                             let slope = (ahead[i][j] - behind[i][j]) / 2e-5;
                             assert_relative_eq!(tangent, slope, epsilon = 1e-8, max_relative = 1e-8);
                         }

@@ -2,12 +2,12 @@
 
 use partita_iga::Spline;
 use partita_numerics::newton::{self, Failure, Limit, Report, Verdict};
-use partita_numerics::{DofMap, PhaseSeconds};
+use partita_numerics::{DofMap, Pattern, PhaseSeconds};
 
 use crate::assembly::{Assembly, Forces, Local, Motion};
 use crate::error::StructureError;
 use crate::factor::TangentFactor;
-use crate::load;
+use crate::load::Loads;
 use crate::model::{Part, StructureModel, StructureSettings};
 use crate::space::Space;
 use crate::state::StructureState;
@@ -56,9 +56,7 @@ pub struct StructureSolver<const D: usize> {
     scheme: Scheme,
     pub(crate) assembly: Assembly<D>,
     pub(crate) factor: TangentFactor,
-    /// `(N_a, 1)` of every control point.
-    volumes: Vec<f64>,
-    interface_points: Vec<usize>,
+    loads: Loads<D>,
     parts: [Part; 1],
     pub(crate) committed: StructureState,
     pub(crate) trial: StructureState,
@@ -117,7 +115,7 @@ impl<const D: usize> StructureSolver<D> {
         let state = StructureState::at_rest(space.node_count() * D, interface_points.len() * D);
         Ok(Self {
             factor: TangentFactor::new(assembly.pattern())?,
-            volumes: assembly.volumes(),
+            loads: Loads::new(model.body_force.clone(), &assembly, interface_points),
             work: Work::new(&assembly),
             committed: state.clone(),
             trial: state,
@@ -128,7 +126,6 @@ impl<const D: usize> StructureSolver<D> {
             settings,
             scheme,
             assembly,
-            interface_points,
             parts,
         })
     }
@@ -136,7 +133,7 @@ impl<const D: usize> StructureSolver<D> {
     /// Control points on the wetted sides that can move, ascending, those at corners once.
     #[must_use]
     pub fn interface_points(&self) -> &[usize] {
-        &self.interface_points
+        self.loads.interface_points()
     }
 
     /// Begins the step of size `dt` `[s]` that ends at `time` `[s]`, from the committed state: `d = d_n` under the body
@@ -147,8 +144,7 @@ impl<const D: usize> StructureSolver<D> {
     pub fn begin_step(&mut self, time: f64, dt: f64) {
         self.step = Some(Step::new(self.scheme, dt));
         self.trial.copy_from(&self.committed);
-        self.trial.time = time;
-        self.update_external_force();
+        self.set_time(time);
         self.update_rates();
     }
 
@@ -173,9 +169,10 @@ impl<const D: usize> StructureSolver<D> {
     /// # Panics
     /// When `displacement` has the wrong length.
     pub fn output(&self, displacement: &mut [f64]) {
-        assert_eq!(displacement.len(), self.interface_points.len() * D, "the output has the wrong length");
+        let points = self.interface_points();
+        assert_eq!(displacement.len(), points.len() * D, "the output has the wrong length");
         let all = self.trial.displacement.as_chunks::<D>().0;
-        for (entry, &point) in displacement.as_chunks_mut::<D>().0.iter_mut().zip(&self.interface_points) {
+        for (entry, &point) in displacement.as_chunks_mut::<D>().0.iter_mut().zip(points) {
             *entry = all[point];
         }
     }
@@ -220,14 +217,26 @@ impl<const D: usize> StructureSolver<D> {
     /// When the mass matrix cannot be factored.
     pub fn start_from_equilibrium(&mut self, time: f64) -> Result<(), StructureError> {
         self.trial.copy_from(&self.committed);
-        self.trial.time = time;
+        self.set_time(time);
         self.trial.acceleration.fill(0.0);
-        self.update_external_force();
         if self.scheme != Scheme::QuasiStatic {
             self.solve_for_acceleration()?;
         }
         self.commit();
         Ok(())
+    }
+
+    /// Moves the trial state to another displacement before a Newton iteration: a guess from a predictor, say. Clamped
+    /// control points stay where they are.
+    ///
+    /// # Panics
+    /// When `displacement` does not have one value a dof.
+    pub fn guess(&mut self, displacement: &[f64]) {
+        assert_eq!(displacement.len(), self.trial.displacement.len(), "the guess has the wrong length");
+        for &dof in self.assembly.dofs().free() {
+            self.trial.displacement[dof] = displacement[dof];
+        }
+        self.update_rates();
     }
 
     /// Displacement of all control points in the trial state `[m]`, numbered `control_point * D + c`.
@@ -240,6 +249,19 @@ impl<const D: usize> StructureSolver<D> {
     #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.parts
+    }
+
+    /// The residual R `[N, in 2D N/m]` of the last assembly on all dofs; in clamped rows it holds the reactions.
+    #[must_use]
+    pub fn residual(&self) -> &[f64] {
+        &self.work.residual
+    }
+
+    /// The tangent dR/d(d_{n+1}) `[N/m, in 2D N/m^2]` of the last assembly that asked for it: values on a pattern over
+    /// the free dofs of [`parts`](Self::parts).
+    #[must_use]
+    pub fn tangent(&self) -> (&Pattern, &[f64]) {
+        (self.assembly.pattern(), &self.work.tangent)
     }
 
     /// The trial state: `t_{n+1}` between [`begin_step`](Self::begin_step) and [`commit`](Self::commit).
@@ -307,14 +329,15 @@ impl<const D: usize> StructureSolver<D> {
         step.follow(&self.committed, &mut self.trial);
     }
 
+    fn set_time(&mut self, time: f64) {
+        self.trial.time = time;
+        self.loads.set_time(time, &self.assembly);
+        self.update_external_force();
+    }
+
     fn update_external_force(&mut self) {
-        load::external_force::<D>(
-            self.model.body_force.at(self.trial.time),
-            &self.volumes,
-            &self.interface_points,
-            &self.trial.interface_force,
-            &mut self.trial.external_force,
-        );
+        let StructureState { interface_force, external_force, .. } = &mut self.trial;
+        self.loads.external_force(interface_force, external_force);
     }
 
     fn solve_for_acceleration(&mut self) -> Result<(), StructureError> {

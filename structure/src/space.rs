@@ -63,7 +63,7 @@ fn tabulate_patch<const D: usize>(spline: &Spline<D>) -> Result<Elements<D>, Str
     if spline.parameters() != D {
         return Err(StructureError::NotASolid { parameters: spline.parameters(), dimensions: D });
     }
-    let rule = tensor_rule(std::array::from_fn(|i| gauss::line(spline.knots()[i].degree() + 1)));
+    let rule = tensor_rule(&std::array::from_fn(|i| gauss::line(spline.knots()[i].degree() + 1)));
     let mut basis = BasisValues::new(spline);
     let mut elements = Elements::with_capacity(spline.element_count(), spline.active_count(), rule.len());
     for element in spline.elements() {
@@ -87,23 +87,21 @@ fn push_point<const D: usize>(
 ) -> Result<(), StructureError> {
     let along = basis.first_of(spline.control_points());
     let jacobian = tensor::build(|i, j| along[j][i]);
+    let place = basis.value_of(spline.control_points());
     let determinant = small::determinant(&jacobian);
-    let inverted = || StructureError::Inverted {
-        element: element.index(),
-        place: basis.value_of(spline.control_points()).to_vec(),
-        determinant,
-    };
+    let inverted =
+        || StructureError::Inverted { element: element.index(), place: place.to_vec(), determinant };
     let (inverse, _) = small::inverse(&jacobian).filter(|_| determinant > 0.0).ok_or_else(inverted)?;
     let gradients = basis.first().iter().map(|derivative| {
         let derivative: [f64; D] = std::array::from_fn(|j| derivative[j]);
         small::transpose_apply(&inverse, &derivative)
     });
-    elements.push_point(weight * element.measure() * determinant, basis.values(), gradients);
+    elements.push_point(place, weight * element.measure() * determinant, basis.values(), gradients);
     Ok(())
 }
 
 /// The product of one rule for each direction, on the unit cube.
-fn tensor_rule<const D: usize>(rules: [Vec<(f64, f64)>; D]) -> Vec<([f64; D], f64)> {
+fn tensor_rule<const D: usize>(rules: &[Vec<(f64, f64)>; D]) -> Vec<([f64; D], f64)> {
     let mut product = vec![([0.0; D], 1.0)];
     for (i, rule) in rules.iter().enumerate() {
         product = rule

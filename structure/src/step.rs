@@ -14,6 +14,10 @@ pub enum TimeScheme {
     /// ```text
     /// M a_{n+1-alpha_m} + C v_{n+1-alpha_f} + f_int(d_{n+1-alpha_f}) = f_ext_{n+1-alpha_f}
     /// ```
+    ///
+    /// Of second order, also where the step size changes now and then (a step that is retried, say). The vector `a_n`
+    /// is the acceleration of `t_n + (alpha_m - alpha_f) dt`: a size that changes at *every* step leaves first order,
+    /// except at radius 1.
     GeneralizedAlpha {
         /// Spectral radius at infinite frequency, in [0, 1]: 1 keeps all energy, 0 removes it within a step.
         spectral_radius: f64,

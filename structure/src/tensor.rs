@@ -8,7 +8,13 @@ pub(crate) type Tensor<const D: usize> = [[f64; D]; D];
 /// The tensor with the entries `entry(i, j)`.
 #[inline]
 pub(crate) fn build<const D: usize>(entry: impl Fn(usize, usize) -> f64) -> Tensor<D> {
-    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+    array(|i| array(|j| entry(i, j)))
+}
+
+/// The array with the entries `entry(i)`.
+#[inline]
+pub(crate) fn array<T, const D: usize>(entry: impl Fn(usize) -> T) -> [T; D] {
+    std::array::from_fn(entry)
 }
 
 /// A B^T

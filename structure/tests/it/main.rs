@@ -1,0 +1,15 @@
+//! Tests of the structure through its public interface.
+
+#![allow(clippy::float_cmp, reason = "equality to the bit is what many of these tests ask for")]
+
+mod clamped_beam;
+mod common;
+mod interface;
+mod invariance;
+mod newton_loop;
+mod patch_test;
+mod refusals;
+mod restart;
+mod tangent;
+mod turek_hron;
+mod vibration;

@@ -1,0 +1,239 @@
+//! Newton's method on the structure: its order, its start, its end.
+
+use partita_iga::Side;
+use partita_numerics::newton::{self, Bound, Failure, Limit, Problem, Verdict};
+use partita_structure::{BodyForce, LineSearch, StructureModel, StructureSettings, StructureSolver};
+
+use crate::common::{bare, beam, dynamic, linear, noise, quasi_static, solver, svk};
+
+/// A cantilever of 1 m x 0.05 m under a transverse body force that bends it by `reach` of its length in beam theory.
+fn cantilever(reach: f64, settings: StructureSettings) -> StructureSolver<2> {
+    let (height, young_modulus, nu): (f64, f64, f64) = (0.05, 1e6, 0.3);
+    let stiffness = young_modulus / (1.0 - nu * nu) * height.powi(3) / 12.0;
+    let mut model = bare(svk(young_modulus, nu));
+    model.clamped = vec![Side::LEFT];
+    model.wetted = vec![Side::TOP];
+    model.body_force = BodyForce::Constant([0.0, -8.0 * stiffness * reach / height]);
+    solver(beam(1.0, height, 3, 20), model, settings)
+}
+
+/// Relative residuals of one call to convergence, the entry first.
+fn residuals(solver: &mut StructureSolver<2>) -> Vec<f64> {
+    let settings = *solver.newton_settings();
+    let mut sequence = vec![];
+    newton::solve(solver, &settings, Limit::ToConvergence, |_, iteration| {
+        if sequence.is_empty() {
+            sequence.push(iteration.before.relative);
+        }
+        sequence.push(iteration.after.relative);
+        Verdict::Continue
+    })
+    .unwrap();
+    sequence
+}
+
+#[test]
+fn newton_converges_quadratically_under_a_large_deflection() {
+    let mut solver = cantilever(0.8, quasi_static());
+    solver.begin_step(1.0, 1.0);
+    let sequence = residuals(&mut solver);
+    println!("relative residuals under a large deflection: {sequence:?}");
+    let [_, deflection] = solver.displacement_at(&[1.0, 0.5]);
+    assert!(deflection < -0.5, "a large deflection: {deflection} m");
+    // log r_{i+1} / log r_i of the last two drops before round-off.
+    let drops: Vec<f64> = sequence.iter().copied().filter(|r| *r < 1e-1).collect();
+    assert!(drops.len() >= 2, "{sequence:?}");
+    for pair in drops.windows(2).filter(|pair| pair[1] > 1e-12) {
+        assert!(pair[1] < 10.0 * pair[0].powi(2), "{sequence:?}");
+    }
+}
+
+#[test]
+fn a_slender_body_stands_still_where_the_last_bit_of_its_displacement_moves_the_residual() {
+    let mut model = bare(svk(1e7, 0.3));
+    model.clamped = vec![Side::LEFT, Side::RIGHT];
+    model.body_force = BodyForce::Constant([0.0, -3.5]);
+    let mut solver = solver(beam(1.0, 0.01, 2, 60), model, quasi_static());
+    solver.begin_step(1.0, 1.0);
+    let settings = newton::Settings { bound: Bound::Relative(1e-30), ..*solver.newton_settings() };
+    let report = newton::solve(&mut solver, &settings, Limit::AtMost(15), |_, _| Verdict::Continue).unwrap();
+    let floor = report.exit.relative;
+    let rounded: Vec<f64> = solver
+        .values()
+        .iter()
+        .zip(noise(solver.values().len(), 1.0))
+        .map(|(d, sign)| if sign > 0.0 { d.next_up() } else { *d })
+        .collect();
+    solver.guess(&rounded);
+    let moved = solver.assemble(false).unwrap().relative;
+    println!("slender strip: residual floor {floor:e}, after moves of one bit {moved:e}");
+    assert!(report.stagnated && floor > 1e-12);
+    assert!(moved / floor > 0.2 && moved / floor < 5.0, "{floor:e} and {moved:e}");
+}
+
+#[test]
+fn a_linear_structure_takes_one_iteration() {
+    for settings in [quasi_static(), dynamic(0.5)] {
+        let mut model = bare(linear(1e6, 0.3));
+        model.clamped = vec![Side::LEFT];
+        model.body_force = BodyForce::Constant([10.0, -10.0]);
+        let mut solver = solver(beam(1.0, 0.1, 2, 10), model, settings);
+        assert_eq!(solver.advance(0.1, 0.1).unwrap().iterations, 1);
+    }
+}
+
+#[test]
+fn a_call_that_enters_converged_costs_nothing() {
+    for settings in [quasi_static(), dynamic(0.5)] {
+        let mut solver = cantilever(0.1, settings);
+        solver.begin_step(0.1, 0.1);
+        let sequence = residuals(&mut solver);
+        assert!(sequence.len() > 2, "{sequence:?}");
+        let values = solver.values().to_vec();
+        let newton = *solver.newton_settings();
+        let report =
+            newton::solve(&mut solver, &newton, Limit::ToConvergence, |_, _| Verdict::Continue).unwrap();
+        assert!(report.converged);
+        assert_eq!((report.iterations, report.assemblies, report.factorizations), (0, 1, 0));
+        assert_eq!(solver.values(), values);
+    }
+}
+
+#[test]
+fn a_call_continues_from_the_latest_iterate_under_new_loads() {
+    let mut whole = cantilever(0.3, dynamic(0.5));
+    whole.begin_step(0.1, 0.1);
+    let load = vec![0.01; whole.interface_points().len() * 2];
+    whole.impose(&load);
+    residuals(&mut whole);
+
+    let mut split = cantilever(0.3, dynamic(0.5));
+    split.begin_step(0.1, 0.1);
+    let settings = *split.newton_settings();
+    for factor in [0.2, 1.4, 1.0] {
+        let part: Vec<f64> = load.iter().map(|f| factor * f).collect();
+        split.impose(&part);
+        newton::solve(&mut split, &settings, Limit::AtMost(1), |_, _| Verdict::Continue).unwrap();
+    }
+    newton::solve(&mut split, &settings, Limit::ToConvergence, |_, _| Verdict::Continue).unwrap();
+    for (a, b) in whole.values().iter().zip(split.values()) {
+        assert!((a - b).abs() < 1e-9, "{a} and {b}");
+    }
+}
+
+#[test]
+fn nothing_moves_from_an_exactly_zero_state_without_loads() {
+    for settings in [quasi_static(), dynamic(0.0), dynamic(1.0)] {
+        let mut model = bare(svk(1e6, 0.3));
+        model.clamped = vec![Side::LEFT];
+        model.wetted = vec![Side::TOP];
+        let mut solver = solver(beam(1.0, 0.1, 2, 4), model, settings);
+        solver.begin_step(0.1, 0.1);
+        solver.impose(&vec![0.0; solver.interface_points().len() * 2]);
+        let report =
+            newton::solve(&mut solver, &settings.newton, Limit::ToConvergence, |_, _| Verdict::Continue)
+                .unwrap();
+        assert_eq!((report.iterations, report.entry.absolute, report.entry.relative), (0, 0.0, 0.0));
+        assert!(solver.values().iter().all(|d| d.to_bits() == 0));
+    }
+}
+
+#[test]
+fn the_residual_is_measured_against_the_largest_of_its_terms() {
+    let mut solver = cantilever(0.1, quasi_static());
+    solver.begin_step(1.0, 1.0);
+    let entry = solver.assemble(true).unwrap();
+    // At rest the load is the only term, so that the residual is all of it.
+    assert_eq!(entry.relative, 1.0);
+    let load = solver.trial().external_force.clone();
+    let free: f64 = solver.parts()[0].dofs.iter().map(|&dof| load[dof].powi(2)).sum();
+    assert!((entry.absolute / free.sqrt() - 1.0).abs() < 1e-14);
+}
+
+/// A strip pulled along its axis by a force far beyond its stiffness, from rest in one step: the linear step stretches
+/// it to a hundred times its length, where St. Venant-Kirchhoff material, of third order in the stretch, ends at ten.
+fn strong_pull(line_search: Option<LineSearch>) -> (usize, StructureSolver<2>) {
+    let model = StructureModel {
+        clamped: vec![Side::LEFT],
+        body_force: BodyForce::Constant([1e5, 0.0]),
+        ..bare(svk(1e3, 0.0))
+    };
+    let settings = StructureSettings { line_search, ..quasi_static() };
+    let mut solver = solver(beam(1.0, 0.1, 2, 6), model, settings);
+    solver.begin_step(1.0, 1.0);
+    let sequence = residuals(&mut solver);
+    println!("strong pull, {line_search:?}: {sequence:?}");
+    (sequence.len() - 1, solver)
+}
+
+#[test]
+fn line_search_saves_iterations_under_a_strong_pull_and_finds_the_same_solution() {
+    let (full, without) = strong_pull(None);
+    let (searched, with) = strong_pull(Some(LineSearch { tolerance: 0.8, max_evaluations: 10 }));
+    assert!(searched + 3 <= full, "{searched} against {full}");
+    for (a, b) in without.values().iter().zip(with.values()) {
+        assert!((a - b).abs() < 1e-8, "{a} and {b}");
+    }
+}
+
+#[test]
+fn line_search_leaves_good_steps_alone() {
+    let plain = residuals(&mut begun(cantilever(0.05, dynamic(0.5))));
+    let search = Some(LineSearch { tolerance: 0.8, max_evaluations: 5 });
+    let searched =
+        residuals(&mut begun(cantilever(0.05, StructureSettings { line_search: search, ..dynamic(0.5) })));
+    assert_eq!(plain, searched);
+}
+
+fn begun(mut solver: StructureSolver<2>) -> StructureSolver<2> {
+    solver.begin_step(0.01, 0.01);
+    solver
+}
+
+/// A slender column that carries a body force along its axis, straight.
+fn column(times_buckling: f64) -> StructureSolver<2> {
+    let (height, young_modulus, nu): (f64, f64, f64) = (0.05, 1e6, 0.3);
+    let stiffness = young_modulus / (1.0 - nu * nu) * height.powi(3) / 12.0;
+    // Greenhill: a column of weight q per length buckles at q L^3 = 7.837 EI.
+    let weight = 7.837 * stiffness * times_buckling;
+    let model = StructureModel {
+        clamped: vec![Side::LEFT],
+        body_force: BodyForce::Constant([-weight / height, 0.0]),
+        ..bare(svk(young_modulus, nu))
+    };
+    solver(beam(1.0, height, 3, 10), model, quasi_static())
+}
+
+#[test]
+fn tangents_past_the_buckling_load_are_solved_and_counted() {
+    let mut below = column(0.9);
+    below.advance(1.0, 1.0).unwrap();
+    assert_eq!(below.indefinite_tangents(), 0);
+    let mut above = column(1.1);
+    let report = above.advance(1.0, 1.0).unwrap();
+    assert!(report.converged && above.indefinite_tangents() > 0);
+    // The straight column is an equilibrium all the same.
+    let [shortening, bending] = above.displacement_at(&[1.0, 0.5]);
+    assert!(shortening < 0.0 && bending.abs() < 1e-9, "{shortening} {bending}");
+}
+
+#[test]
+fn a_body_without_supports_cannot_rest() {
+    let mut model = bare(svk(1.0, 0.3));
+    model.body_force = BodyForce::Constant([0.0, -1.0]);
+    let mut solver = solver(beam(1.0, 0.2, 2, 4), model, quasi_static());
+    let failure = solver.advance(1.0, 1.0).unwrap_err();
+    assert!(matches!(failure, Failure::Problem { iteration: 1, .. }), "{failure:?}");
+    assert!(solver.values().iter().all(|d| *d == 0.0), "the step is given up");
+}
+
+#[test]
+fn phases_account_for_the_time_of_a_call() {
+    let mut solver = cantilever(0.3, quasi_static());
+    assert_eq!(solver.phases().total(), 0.0);
+    solver.advance(1.0, 1.0).unwrap();
+    let first = solver.phases();
+    assert!(first.assembly > 0.0 && first.factorization > 0.0 && first.solve > 0.0 && first.motion == 0.0);
+    solver.advance(2.0, 1.0).unwrap();
+    assert!(solver.phases().assembly > first.assembly);
+}

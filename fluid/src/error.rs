@@ -8,12 +8,14 @@ use partita_numerics::FactorError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FluidError {
     /// A property outside its range.
-    #[error("fluid: {name} {value} is out of range\nhint: {range}")]
+    #[error("fluid: {name} {value} {unit} is out of range\nhint: {range}")]
     Property {
         /// Which one.
         name: &'static str,
         /// As given.
         value: f64,
+        /// Its unit.
+        unit: &'static str,
         /// What it must be.
         range: &'static str,
     },

@@ -74,3 +74,46 @@ impl Block {
         ResidualNorm::new(residual, largest.sqrt())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two nodes in 2D, the first velocity prescribed; rows hold two terms.
+    fn norm_of(rows: [[f64; 2]; 6]) -> (ResidualNorm, Vec<f64>) {
+        let dofs = DofMap::new(&[true, false, false, false, false, false]);
+        let mut terms = [[0.0; TERMS]; 6];
+        for (terms, row) in terms.iter_mut().zip(rows) {
+            terms[..2].copy_from_slice(&row);
+        }
+        let mut right_hand_side = vec![0.0; 5];
+        let sizes = Sizes { momentum: 100.0, continuity: 1.0 };
+        (norm::<2>(&dofs, &terms, &sizes, &mut right_hand_side), right_hand_side)
+    }
+
+    #[test]
+    fn each_block_is_measured_against_its_own_largest_term() {
+        // Momentum: |(1, 2)| against |(4, 3)|. Continuity: 0.02 against 0.04.
+        let rows = [[7.0, 0.0], [4.0, -3.0], [0.0, 0.0], [0.0, 0.0], [-3.0, 5.0], [0.04, -0.02]];
+        let (found, right_hand_side) = norm_of(rows);
+        assert_eq!(right_hand_side, [-1.0, 0.0, 0.0, -2.0, -0.02]);
+        assert!((found.absolute - f64::sqrt(5.0 + 4e-4)).abs() < 1e-15);
+        assert!((found.relative - 0.5).abs() < 1e-15, "continuity is the worse one: {}", found.relative);
+        let mut rows = rows;
+        rows[5] = [0.04, -0.04 + 1e-6];
+        let momentum = f64::sqrt(5.0) / f64::sqrt(9.0 + 25.0);
+        assert!((norm_of(rows).0.relative - momentum).abs() < 1e-15);
+    }
+
+    #[test]
+    fn round_off_of_nothing_is_nothing() {
+        let (found, _) = norm_of([[1e-14, 0.0]; 6]);
+        assert!(found.relative > 0.5, "continuity has a size of one only");
+        let mut rows = [[1e-14, 0.0]; 6];
+        rows[2] = [0.0; 2];
+        rows[5] = [1e-16, 0.0];
+        assert!(norm_of(rows).0.relative == 0.0);
+        assert_eq!(norm_of([[0.0; 2]; 6]).0, ResidualNorm::default());
+        assert!(norm_of([[f64::NAN; 2]; 6]).0.relative.is_nan());
+    }
+}

@@ -21,20 +21,18 @@ pub(crate) fn check<const D: usize>(
 fn properties<const D: usize>(model: &FluidModel<D>, settings: &FluidSettings) -> Result<(), FluidError> {
     let positive = |x: f64| x > 0.0 && x.is_finite();
     let steady = settings.time == TimeScheme::Steady;
-    let refuse = |name, value, range| Err(FluidError::Property { name, value, range });
     let FluidModel { density, viscosity, .. } = *model;
+    let constant = settings.inverse_constant;
+    let refuse = |name, value, unit, range| Err(FluidError::Property { name, value, unit, range });
     if !positive(density) {
-        return refuse("density [kg/m^3]", density, "it is positive and finite");
+        return refuse("density", density, "kg/m^3", "it is positive and finite");
     }
     if !(positive(viscosity) || (viscosity == 0.0 && !steady)) {
-        return refuse(
-            "viscosity [Pa s]",
-            viscosity,
-            "it is positive and finite; zero only in unsteady flow",
-        );
+        let range = "it is positive and finite; zero only in unsteady flow";
+        return refuse("viscosity", viscosity, "Pa s", range);
     }
-    if !positive(settings.inverse_constant) {
-        return refuse("inverse constant C_I", settings.inverse_constant, "it is positive; 36 is common");
+    if !positive(constant) {
+        return refuse("inverse constant", constant, "(C_I)", "it is positive and finite; 36 is common");
     }
     Ok(())
 }

@@ -31,13 +31,13 @@ fn properties_out_of_range_are_refused() {
     let water = model(open());
     let error = refused(FluidModel { density: -1.0, ..water.clone() }, settings(BDF1));
     insta::assert_snapshot!(error, @r"
-    fluid: density [kg/m^3] -1 is out of range
+    fluid: density -1 kg/m^3 is out of range
     hint: it is positive and finite
     ");
     let inviscid = FluidModel { viscosity: 0.0, ..water.clone() };
     assert!(FluidSolver::new(unit_square(2), inviscid.clone(), settings(BDF1)).is_ok());
     insta::assert_snapshot!(refused(inviscid, settings(TimeScheme::Steady)), @r"
-    fluid: viscosity [Pa s] 0 is out of range
+    fluid: viscosity 0 Pa s is out of range
     hint: it is positive and finite; zero only in unsteady flow
     ");
     let nan = FluidModel { viscosity: f64::NAN, ..water.clone() };

@@ -131,6 +131,7 @@ fn hydrostatic(time: TimeScheme) {
         ("top", BoundaryCondition::StressFree { backflow: true }),
     ]));
     model.density = density;
+    model.viscosity = 1.0;
     model.body_force = BodyForce::Constant([0.0, -gravity]);
     let mut fluid = FluidSolver::new(mesh, model, exacting(time)).expect("a fluid");
     for k in 1..4 {
@@ -152,4 +153,43 @@ fn hydrostatic_rest_is_exact_on_a_distorted_mesh() {
     hydrostatic(TimeScheme::Steady);
     hydrostatic(BDF1);
     hydrostatic(BDF2);
+}
+
+/// A box whose walls all slip moves at constant speed, and the fluid in it with them.
+#[test]
+fn slip_walls_carry_the_fluid_along() {
+    let speed = |_: &[f64; 2]| [0.9, -0.4];
+    let mesh = perturbed(&unit_square(4), 0.03, 5);
+    let mut model = model(everywhere(&mesh, &BoundaryCondition::Slip));
+    model.initial = InitialState::Velocity(field(move |x, _| speed(x)));
+    let settings = FluidSettings { pressure_pin: Some(PressurePin::default()), ..exacting(BDF2) };
+    let mut fluid = FluidSolver::new(mesh.clone(), model, settings).expect("a fluid");
+    for t in [0.1, 0.2, 0.3] {
+        fluid.begin_step(t, 0.1).expect("a step");
+        let moved: Vec<f64> = mesh.points().iter().flat_map(|x| speed(x).map(|v| v * t)).collect();
+        fluid.impose_mesh(&moved).expect("a rigid motion");
+        fluid.advance(Limit::ToConvergence).expect("convergence");
+        assert!(velocity_error(&fluid, speed) < 1e-12);
+        assert!(pressure_error(&fluid, |_| 0.0) < 1e-11);
+        fluid.commit();
+    }
+}
+
+/// A steady flow is the same whatever the step is said to be.
+#[test]
+fn steady_flow_does_not_know_the_time_step() {
+    let flows = [1.0, 1e-3].map(|dt| {
+        let profile = field(|x: &[f64; 2], _| [x[1] * (1.0 - x[1]), 0.0]);
+        let model = model(boundary(&[
+            ("left", BoundaryCondition::Velocity(profile)),
+            ("right", BoundaryCondition::StressFree { backflow: true }),
+            ("bottom", BoundaryCondition::NoSlip),
+            ("top", BoundaryCondition::NoSlip),
+        ]));
+        let mut fluid =
+            FluidSolver::new(unit_square(4), model, settings(TimeScheme::Steady)).expect("a fluid");
+        step(&mut fluid, 1.0, dt);
+        fluid.values().to_vec()
+    });
+    assert_eq!(flows[0], flows[1]);
 }

@@ -8,7 +8,7 @@ use partita_numerics::newton::{self, Bound, Check, Limit, Verdict};
 use crate::common::*;
 
 /// The lid-driven cavity at Reynolds number 100, regularized lid.
-fn cavity(tangent: Tangent) -> FluidSolver<2> {
+fn cavity(time: TimeScheme, tangent: Tangent) -> FluidSolver<2> {
     let lid = field(|x: &[f64; 2], _| [16.0 * x[0] * x[0] * (1.0 - x[0]).powi(2), 0.0]);
     let model = FluidModel {
         density: 1.0,
@@ -20,9 +20,14 @@ fn cavity(tangent: Tangent) -> FluidSolver<2> {
             ("top", BoundaryCondition::Velocity(lid)),
         ]))
     };
-    let settings =
-        FluidSettings { tangent, pressure_pin: Some(PressurePin::default()), ..settings(TimeScheme::Steady) };
+    let settings = FluidSettings { tangent, pressure_pin: Some(PressurePin::default()), ..settings(time) };
     FluidSolver::new(unit_square(10), model, settings).expect("a fluid")
+}
+
+fn steady_cavity(tangent: Tangent) -> FluidSolver<2> {
+    let mut fluid = cavity(TimeScheme::Steady, tangent);
+    fluid.begin_step(1.0, 1.0).expect("a step");
+    fluid
 }
 
 /// Relative residuals from the entry to the bound.
@@ -50,8 +55,7 @@ fn order(residuals: &[f64]) -> f64 {
 
 #[test]
 fn full_tangent_converges_quadratically() {
-    let mut fluid = cavity(Tangent::Full);
-    fluid.begin_step(1.0, 1.0).expect("a step");
+    let mut fluid = steady_cavity(Tangent::Full);
     let residuals = sequence(&mut fluid, 1e-9);
     println!("full: {}", table(&residuals));
     let last = residuals.len();
@@ -62,8 +66,7 @@ fn full_tangent_converges_quadratically() {
 #[test]
 fn approximate_tangents_converge_linearly() {
     for tangent in [Tangent::FrozenTau, Tangent::Picard] {
-        let mut fluid = cavity(tangent);
-        fluid.begin_step(1.0, 1.0).expect("a step");
+        let mut fluid = steady_cavity(tangent);
         let residuals = sequence(&mut fluid, 1e-9);
         println!("{tangent:?}: {}", table(&residuals));
         let last = residuals.len();
@@ -76,8 +79,7 @@ fn approximate_tangents_converge_linearly() {
 #[test]
 fn tangents_agree_on_the_solution() {
     let mut solutions = [Tangent::Full, Tangent::FrozenTau, Tangent::Picard].into_iter().map(|tangent| {
-        let mut fluid = cavity(tangent);
-        fluid.begin_step(1.0, 1.0).expect("a step");
+        let mut fluid = steady_cavity(tangent);
         sequence(&mut fluid, 1e-11);
         fluid.values().to_vec()
     });
@@ -90,18 +92,8 @@ fn tangents_agree_on_the_solution() {
 
 #[test]
 fn unsteady_full_tangent_converges_quadratically_on_a_moving_mesh() {
-    let mut fluid = cavity(Tangent::Full);
-    let settings = FluidSettings { time: BDF2, ..fluid.settings().clone() };
+    let mut fluid = cavity(BDF2, Tangent::Full);
     let mesh = fluid.mesh().clone();
-    let lid = field(|x: &[f64; 2], _| [16.0 * x[0] * x[0] * (1.0 - x[0]).powi(2), 0.0]);
-    let conditions = [
-        ("left", BoundaryCondition::NoSlip),
-        ("right", BoundaryCondition::NoSlip),
-        ("bottom", BoundaryCondition::NoSlip),
-        ("top", BoundaryCondition::Velocity(lid)),
-    ];
-    let model = FluidModel { viscosity: 0.01, ..model(boundary(&conditions)) };
-    fluid = FluidSolver::new(mesh.clone(), model, settings).expect("a fluid");
     let mut numbers = Numbers::new(5);
     for k in 1..4 {
         fluid.begin_step(0.2 * f64::from(k), 0.2).expect("a step");
@@ -120,8 +112,7 @@ fn table(residuals: &[f64]) -> String {
 
 #[test]
 fn call_that_enters_converged_costs_no_iteration() {
-    let mut fluid = cavity(Tangent::Full);
-    fluid.begin_step(1.0, 1.0).expect("a step");
+    let mut fluid = steady_cavity(Tangent::Full);
     fluid.advance(Limit::ToConvergence).expect("convergence");
     let solution = fluid.values().to_vec();
     let report = fluid.advance(Limit::ToConvergence).expect("convergence");
@@ -134,11 +125,9 @@ fn call_that_enters_converged_costs_no_iteration() {
 
 #[test]
 fn limited_calls_continue_from_the_latest_iterate() {
-    let mut whole = cavity(Tangent::Full);
-    whole.begin_step(1.0, 1.0).expect("a step");
+    let mut whole = steady_cavity(Tangent::Full);
     let report = whole.advance(Limit::ToConvergence).expect("convergence");
-    let mut parts = cavity(Tangent::Full);
-    parts.begin_step(1.0, 1.0).expect("a step");
+    let mut parts = steady_cavity(Tangent::Full);
     for _ in 0..report.iterations {
         parts.advance(Limit::AtMost(1)).expect("an iteration");
     }

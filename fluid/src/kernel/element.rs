@@ -1,6 +1,6 @@
 //! One element at one iterate: what residual and tangent share, and the residual.
 
-use partita_numerics::small;
+use partita_numerics::small::{dot, inverse, trace};
 
 use super::terms::{Term, Terms};
 use crate::settings::Tangent;
@@ -51,7 +51,7 @@ pub struct Fields<const D: usize, const N: usize> {
 #[must_use]
 pub fn shape<const D: usize, const N: usize>(points: &[[f64; D]; N]) -> ([[f64; D]; N], f64) {
     let edges = std::array::from_fn(|a| std::array::from_fn(|i| points[a + 1][i] - points[0][i]));
-    let (inverse, determinant) = small::inverse::<D>(&edges).expect("an element that is not flat");
+    let (inverse, determinant) = inverse::<D>(&edges).expect("an element that is not flat");
     let mut gradients = [[0.0; D]; N];
     for a in 0..D {
         for i in 0..D {
@@ -75,6 +75,8 @@ pub struct Element<const D: usize, const N: usize> {
     pub(super) product: f64,
     /// `L_ij = du_i/dx_j`.
     pub(super) velocity_gradient: [[f64; D]; D],
+    /// div u.
+    pub(super) divergence: f64,
     /// grad p.
     pub(super) pressure_gradient: [f64; D],
     /// `D_t u` at the nodes.
@@ -99,28 +101,7 @@ impl<const D: usize, const N: usize> Element<D, N> {
     pub fn new(fields: &Fields<D, N>, flow: &Flow) -> Self {
         let (gradients, measure) = shape(&fields.points);
         let g = metric(&gradients);
-        let centroid_velocity = sum(&fields.convective).map(|c| c / N as f64);
-        let tau = Stabilization::new(&centroid_velocity, &g, flow);
-        let steepness = ((0..D).map(|i| g[i][i]).sum::<f64>() / 2.0).sqrt();
-        Self::with_shape(fields, flow, tau, (gradients, measure), steepness)
-    }
-
-    /// The same with tau held at other values than those of `fields`.
-    #[must_use]
-    pub fn with_stabilization(fields: &Fields<D, N>, flow: &Flow, tau: Stabilization<D>) -> Self {
-        let element = Self::new(fields, flow);
-        let shape = (element.gradients, element.measure);
-        Self::with_shape(fields, flow, tau, shape, element.steepness)
-    }
-
-    #[inline]
-    fn with_shape(
-        fields: &Fields<D, N>,
-        flow: &Flow,
-        tau: Stabilization<D>,
-        (gradients, measure): ([[f64; D]; N], f64),
-        steepness: f64,
-    ) -> Self {
+        let convective_sum = sum(&fields.convective);
         let mut velocity_gradient = [[0.0; D]; D];
         let mut pressure_gradient = [0.0; D];
         for a in 0..N {
@@ -145,19 +126,26 @@ impl<const D: usize, const N: usize> Element<D, N> {
         Self {
             flow: *flow,
             fields: *fields,
+            tau: Stabilization::new(&convective_sum.map(|c| c / N as f64), &g, flow),
+            steepness: (trace(&g) / 2.0).sqrt(),
             gradients,
             measure,
             product: measure / (N * (N + 1)) as f64,
             velocity_gradient,
+            divergence: trace(&velocity_gradient),
             pressure_gradient,
             acceleration,
             convection,
-            strong_residual,
-            convective_sum: sum(&fields.convective),
             strong_sum: sum(&strong_residual),
-            tau,
-            steepness,
+            strong_residual,
+            convective_sum,
         }
+    }
+
+    /// The same with tau held at other values than those of `fields`.
+    #[must_use]
+    pub fn with_stabilization(fields: &Fields<D, N>, flow: &Flow, tau: Stabilization<D>) -> Self {
+        Self { tau, ..Self::new(fields, flow) }
     }
 
     /// V `[m^D]`.
@@ -177,44 +165,51 @@ impl<const D: usize, const N: usize> Element<D, N> {
     #[must_use]
     pub fn residual(&self) -> Terms<D, N> {
         let mut terms = Terms::ZERO;
-        let accelerations = sum(&self.acceleration);
-        let convections = sum(&self.convection);
-        let body_forces = sum(&self.fields.body_force);
-        let streamline = self.streamline_stress();
-        let pressure = self.fields.pressure.iter().sum::<f64>() * self.measure / N as f64;
-        let divergence: f64 = (0..D).map(|i| self.velocity_gradient[i][i]).sum();
-        let density = self.flow.density;
+        self.momentum_rows(&mut terms);
+        self.continuity_rows(&mut terms);
+        self.measure_terms(&mut terms);
+        terms
+    }
 
-        let mass = density * self.product;
-        let viscous = self.flow.viscosity * self.measure;
-        let incompressible = self.tau.continuity * divergence * self.measure;
-        for a in 0..N {
-            let gradient = &self.gradients[a];
+    #[inline]
+    fn momentum_rows(&self, terms: &mut Terms<D, N>) {
+        let Self { flow, fields, tau, measure, .. } = self;
+        let (accelerations, convections) = (sum(&self.acceleration), sum(&self.convection));
+        let body_forces = sum(&fields.body_force);
+        let mass = flow.density * self.product;
+        let viscous = flow.viscosity * measure;
+        let pressure = measure * fields.pressure.iter().sum::<f64>() / N as f64;
+        let incompressible = tau.continuity * measure * self.divergence;
+        let strain = symmetric(&self.velocity_gradient);
+        let streamline = self.streamline_stress();
+        for (a, gradient) in self.gradients.iter().enumerate() {
             for i in 0..D {
-                let strain: f64 = (0..D)
-                    .map(|j| (self.velocity_gradient[i][j] + self.velocity_gradient[j][i]) * gradient[j])
-                    .sum();
                 let row = &mut terms.momentum[a][i];
                 row[Term::Rate as usize] = mass * (self.acceleration[a][i] + accelerations[i]);
                 row[Term::Convection as usize] = mass * (self.convection[a][i] + convections[i]);
-                row[Term::BodyForce as usize] = -mass * (self.fields.body_force[a][i] + body_forces[i]);
+                row[Term::BodyForce as usize] = -mass * (fields.body_force[a][i] + body_forces[i]);
                 row[Term::Pressure as usize] = -pressure * gradient[i];
-                row[Term::Viscosity as usize] = viscous * strain;
-                row[Term::Streamline as usize] = self.tau.momentum * dot(&streamline[i], gradient);
+                row[Term::Viscosity as usize] = viscous * dot(&strain[i], gradient);
+                row[Term::Streamline as usize] = tau.momentum * dot(&streamline[i], gradient);
                 row[Term::Divergence as usize] = incompressible * gradient[i];
             }
-            let mean = self.measure / N as f64;
-            let smoothing = self.tau.momentum * mean;
-            let row = &mut terms.continuity[a];
+        }
+    }
+
+    #[inline]
+    fn continuity_rows(&self, terms: &mut Terms<D, N>) {
+        let mean = self.measure / N as f64;
+        let smoothing = self.tau.momentum * mean;
+        let pressure = smoothing * N as f64 / self.flow.density;
+        let (accelerations, convections) = (sum(&self.acceleration), sum(&self.convection));
+        let body_forces = sum(&self.fields.body_force);
+        for (row, gradient) in terms.continuity.iter_mut().zip(&self.gradients) {
             row[Term::Rate as usize] = smoothing * dot(gradient, &accelerations);
             row[Term::Convection as usize] = smoothing * dot(gradient, &convections);
             row[Term::BodyForce as usize] = -smoothing * dot(gradient, &body_forces);
-            row[Term::Pressure as usize] =
-                smoothing * N as f64 / density * dot(gradient, &self.pressure_gradient);
-            row[Term::Divergence as usize] = mean * divergence;
+            row[Term::Pressure as usize] = pressure * dot(gradient, &self.pressure_gradient);
+            row[Term::Divergence as usize] = mean * self.divergence;
         }
-        self.measure_terms(&mut terms);
-        terms
     }
 
     /// `(r_M, c)` as a tensor: the integral of `r_i c_j`.
@@ -249,13 +244,10 @@ impl<const D: usize, const N: usize> Element<D, N> {
     }
 }
 
+/// L + L^T.
 #[inline]
-pub(super) fn dot<const D: usize>(x: &[f64; D], y: &[f64; D]) -> f64 {
-    let mut sum = 0.0;
-    for i in 0..D {
-        sum += x[i] * y[i];
-    }
-    sum
+fn symmetric<const D: usize>(l: &[[f64; D]; D]) -> [[f64; D]; D] {
+    std::array::from_fn(|i| std::array::from_fn(|j| l[i][j] + l[j][i]))
 }
 
 #[inline]

@@ -3,7 +3,9 @@
 //! A facet is named by the local node opposite to it. Its area vector S (outward normal times area) follows
 //! from that node's shape function: `S = -D V grad N_opposite`.
 
-use super::element::{Element, dot};
+use partita_numerics::small::dot;
+
+use super::element::Element;
 use super::terms::{Term, Terms};
 use crate::settings::Tangent;
 

@@ -1,6 +1,8 @@
 //! The derivative of the element residual.
 
-use super::element::{Element, dot};
+use partita_numerics::small::dot;
+
+use super::element::Element;
 use crate::settings::Tangent;
 
 impl<const D: usize, const N: usize> Element<D, N> {
@@ -116,7 +118,7 @@ impl<const D: usize, const N: usize> Shared<D, N> {
             streamline_force: [[0.0; D]; N],
             smoothing_force: [0.0; N],
             convected_test: [[0.0; D]; N],
-            divergence: measure * (0..D).map(|i| element.velocity_gradient[i][i]).sum::<f64>(),
+            divergence: measure * element.divergence,
         };
         if element.flow.tangent == Tangent::Full {
             shared.slope = element.tau.momentum_slope.map(|x| x / N as f64);

@@ -8,7 +8,7 @@ use partita_fluid::{
 };
 use partita_mesh::Mesh;
 use partita_mesh::generate::{CuboidMesh, Diagonal, RectangleMesh, cuboid, rectangle};
-use partita_numerics::newton::{self, Bound, Limit};
+use partita_numerics::newton::{self, Bound, Limit, Verdict};
 use partita_numerics::time::BdfOrder;
 
 pub(crate) const BDF1: TimeScheme = TimeScheme::Bdf(BdfOrder::One);
@@ -102,10 +102,12 @@ pub(crate) fn settings(time: TimeScheme) -> FluidSettings {
     FluidSettings { time, ..FluidSettings::default() }
 }
 
-/// Settings under which Newton's method goes on to round-off.
-pub(crate) fn exacting(time: TimeScheme) -> FluidSettings {
-    let newton = newton::Settings { bound: Bound::Relative(1e-13), ..newton::Settings::default() };
-    FluidSettings { newton, ..settings(time) }
+/// Newton's method beyond its bound, until round-off is all that is left.
+pub(crate) fn exhaust<const D: usize>(fluid: &mut FluidSolver<D>) {
+    let never = newton::Settings { bound: Bound::Relative(0.0), ..*fluid.newton_settings() };
+    let report =
+        newton::solve(fluid, &never, Limit::AtMost(8), |_, _| Verdict::Continue).expect("iterations");
+    assert!(report.exit.relative < 1e-10, "{report:?}");
 }
 
 /// One step on a mesh that does not move.

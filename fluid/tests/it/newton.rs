@@ -43,7 +43,7 @@ fn sequence<const D: usize>(fluid: &mut FluidSolver<D>, bound: f64) -> Vec<f64> 
     })
     .expect("convergence");
     // What counts as round-off says nothing about the rate.
-    residuals.retain(|residual| *residual > 0.0);
+    residuals.retain(|residual| *residual > 1e-13);
     residuals
 }
 

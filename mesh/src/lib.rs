@@ -5,6 +5,7 @@
 //! | [`mesh`] | [`Mesh`]: points, cells and named boundary groups, validated once when it is built |
 //! | [`cell`] | [`CellKind`], [`Cells`]: cells of one kind in one flat list of nodes |
 //! | [`generate`] | rectangles of triangles, cuboids of tetrahedra |
+//! | [`gmsh`] | reading the meshes of gmsh |
 //! | [`topology`] | boundary facets and neighbours, found from the cells |
 //! | [`facet`] | area vectors and outward normals of boundary facets |
 //! | [`simplex`] | measure, centroid and shape-function gradients of one simplex |
@@ -33,6 +34,7 @@ pub mod cell;
 pub mod error;
 pub mod facet;
 pub mod generate;
+pub mod gmsh;
 pub mod mesh;
 pub mod motion;
 pub mod quality;

@@ -3,6 +3,9 @@
 mod allocation;
 mod boxes;
 mod generated;
+mod gmsh;
+mod gmsh_broken;
+mod gmsh_damage;
 mod motion;
 mod motion_errors;
 mod quality;

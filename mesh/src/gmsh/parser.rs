@@ -1,0 +1,101 @@
+//! The sections of a file, one after the other.
+
+use super::cursor::Cursor;
+use super::document::{ElementBlock, GmshFile, GroupName};
+use super::entities::{self, Entities};
+use super::error::{Fault, ParseError};
+use super::header::{self, Version};
+use super::names;
+use super::numbering::{GroupSets, NodeList};
+use super::{version2, version4};
+
+pub(super) fn parse(bytes: &[u8]) -> Result<GmshFile, ParseError> {
+    let mut cursor = Cursor::new(bytes);
+    let version = header::read(&mut cursor)?;
+    let mut parser = Parser {
+        cursor,
+        version,
+        sets: GroupSets::new(),
+        names: None,
+        entities: None,
+        nodes: None,
+        elements: None,
+    };
+    while let Some(section) = parser.cursor.open_section()? {
+        parser.section(&section)?;
+    }
+    parser.finish()
+}
+
+/// The sections read so far.
+struct Parser<'a> {
+    cursor: Cursor<'a>,
+    version: Version,
+    sets: GroupSets,
+    names: Option<Vec<GroupName>>,
+    entities: Option<Entities>,
+    nodes: Option<NodeList>,
+    elements: Option<Vec<ElementBlock>>,
+}
+
+impl Parser<'_> {
+    fn section(&mut self, name: &str) -> Result<(), ParseError> {
+        match name {
+            "MeshFormat" => return Err(self.cursor.fail(Fault::DuplicateSection)),
+            "PhysicalNames" => {
+                self.first(self.names.is_some())?;
+                self.names = Some(names::read(&mut self.cursor)?);
+            }
+            "Entities" if self.version == Version::Four => {
+                self.first(self.entities.is_some())?;
+                self.before_elements()?;
+                self.entities = Some(entities::read(&mut self.cursor, &mut self.sets)?);
+            }
+            "PartitionedEntities" => return Err(self.cursor.fail(Fault::Partitioned)),
+            "Nodes" => {
+                self.first(self.nodes.is_some())?;
+                self.nodes = Some(match self.version {
+                    Version::Two => version2::nodes(&mut self.cursor)?,
+                    Version::Four => version4::nodes(&mut self.cursor)?,
+                });
+            }
+            "Elements" => {
+                self.first(self.elements.is_some())?;
+                self.elements = Some(self.elements()?);
+            }
+            // The format has sections of results, periodicity and comments, and lets anyone add more.
+            _ => return self.cursor.skip_section(),
+        }
+        self.cursor.close_section()
+    }
+
+    fn elements(&mut self) -> Result<Vec<ElementBlock>, ParseError> {
+        let Some(nodes) = &self.nodes else {
+            return Err(self.cursor.fail(Fault::SectionOrder { first: "$Nodes", second: "$Elements" }));
+        };
+        let blocks = match self.version {
+            Version::Two => version2::elements(&mut self.cursor, nodes, &mut self.sets)?,
+            Version::Four => version4::elements(&mut self.cursor, nodes, self.entities.as_ref())?,
+        };
+        Ok(blocks.finish(&self.sets))
+    }
+
+    fn first(&self, repeated: bool) -> Result<(), ParseError> {
+        if repeated { Err(self.cursor.fail(Fault::DuplicateSection)) } else { Ok(()) }
+    }
+
+    fn before_elements(&self) -> Result<(), ParseError> {
+        match self.elements {
+            None => Ok(()),
+            Some(_) => Err(self.cursor.fail(Fault::SectionOrder { first: "$Entities", second: "$Elements" })),
+        }
+    }
+
+    fn finish(self) -> Result<GmshFile, ParseError> {
+        let missing = |section| self.cursor.fail(Fault::MissingSection { section });
+        let nodes = self.nodes.ok_or_else(|| missing("$Nodes"))?;
+        let blocks = self.elements.ok_or_else(|| missing("$Elements"))?;
+        let names = self.names.unwrap_or_default();
+        Ok(GmshFile { node_tags: nodes.tags, points: nodes.points, blocks, names })
+    }
+}

@@ -139,7 +139,7 @@ fn hydrostatic(time: TimeScheme) {
         fluid.begin_step(0.1 * f64::from(k), 0.1).expect("a step");
         exhaust(&mut fluid);
         fluid.commit();
-    let e = velocity_error(&fluid, |_| [0.0; 2]); assert!(e < 1e-12, "{e:e}");
+    }
     let weight = density * gravity;
     assert!(velocity_error(&fluid, |_| [0.0; 2]) < 1e-12);
     assert!(pressure_error(&fluid, |x| weight * (1.0 - x[1])) < 1e-9 * weight);

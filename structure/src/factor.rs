@@ -4,7 +4,8 @@ use partita_numerics::{Factor, FactorError, Method, Pattern};
 
 /// Factors symmetric tangents: by L L^T, and by L D L^T those that are not positive definite.
 ///
-/// L L^T is the faster one and the rule; a tangent loses definiteness past a buckling load or under compression.
+/// Both cost the same (to a few percent from 360 to 30k equations). L L^T is the rule because it is stable without
+/// pivoting and because it notices when a tangent loses definiteness: past a buckling load or under strong compression.
 pub(crate) struct TangentFactor {
     definite: Factor,
     /// Analysed when it is first needed.

@@ -168,20 +168,20 @@ pub fn add_internal_force_and_tangent<const D: usize>(
         let at = material.response(&point.gradient(displacement));
         point.add_stress(&at.stress, force);
 
+        let weight = scale * point.weight;
         let mut column = blocks.blocks.as_mut_slice();
         for (b, gradient_b) in point.gradients.iter().enumerate() {
             // stress_b[J][i][k]: change of w P_iJ when node b moves along k.
-            let weighted = gradient_b.map(|g| scale * point.weight * g);
-            let stress_b: [Tensor<D>; D] =
-                tensor::array(|j| tensor::build(|i, k| tensor::dot(&at.tangent[i][j][k], &weighted)));
+            let mut stress_b = [[[0.0; D]; D]; D];
+            for j in 0..D {
+                for l in 0..D {
+                    tensor::add_scaled(weight * gradient_b[l], &at.tangent[j][l], &mut stress_b[j]);
+                }
+            }
             let (upper, rest) = column.split_at_mut(b + 1);
             for (block, gradient_a) in upper.iter_mut().zip(point.gradients) {
-                for i in 0..D {
-                    for k in 0..D {
-                        for j in 0..D {
-                            block[i][k] += gradient_a[j] * stress_b[j][i][k];
-                        }
-                    }
+                for j in 0..D {
+                    tensor::add_scaled(gradient_a[j], &stress_b[j], block);
                 }
             }
             column = rest;

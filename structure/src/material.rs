@@ -72,7 +72,8 @@ pub struct Material {
 pub struct Response<const D: usize> {
     /// First Piola-Kirchhoff stress P `[Pa]`.
     pub stress: [[f64; D]; D],
-    /// Its derivative `A[i][J][k][L] = dP_iJ / d(grad d)_kL` `[Pa]`, symmetric: `A_iJkL = A_kLiJ`.
+    /// Its derivative `A_iJkL = dP_iJ / d(grad d)_kL` `[Pa]`, symmetric as `A_iJkL = A_kLiJ`, stored as
+    /// `tangent[J][L][i][k]`: a block of components for each pair of reference directions, as the kernel contracts it.
     pub tangent: [[[[f64; D]; D]; D]; D],
 }
 
@@ -198,13 +199,20 @@ impl Material {
     #[inline]
     fn tangent<const D: usize>(&self, f: &Tensor<D>, b: &Tensor<D>, s: &Tensor<D>) -> [[Tensor<D>; D]; D] {
         let (lambda, mu) = (self.lambda, self.mu);
-        let delta = |i, j| f64::from(u8::from(i == j));
-        let entry = |i: usize, j: usize, k: usize, l: usize| {
-            delta(i, k) * s[j][l]
-                + lambda * f[i][j] * f[k][l]
-                + mu * (f[i][l] * f[k][j] + delta(j, l) * b[i][k])
-        };
-        tensor::array(|i| tensor::array(|j| tensor::build(|k, l| entry(i, j, k, l))))
+        let mut tangent = [[[[0.0; D]; D]; D]; D];
+        for j in 0..D {
+            for l in 0..D {
+                let block = &mut tangent[j][l];
+                for i in 0..D {
+                    for k in 0..D {
+                        block[i][k] = lambda * f[i][j] * f[k][l] + mu * f[i][l] * f[k][j];
+                    }
+                    block[i][i] += s[j][l];
+                }
+            }
+            tensor::add_scaled(mu, b, &mut tangent[j][j]);
+        }
+        tangent
     }
 
     /// lambda tr(E) I + 2 mu E
@@ -287,7 +295,7 @@ mod tests {
                     let (ahead, behind) = (stress(1e-5), stress(-1e-5));
                     for i in 0..D {
                         for j in 0..D {
-                            let tangent = r.tangent[i][j][k][l];
+                            let tangent = r.tangent[j][l][i][k];
                             let slope = (ahead[i][j] - behind[i][j]) / 2e-5;
                             assert_relative_eq!(tangent, slope, epsilon = 1e-8, max_relative = 1e-8);
                         }

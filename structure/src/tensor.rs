@@ -8,13 +8,15 @@ pub(crate) type Tensor<const D: usize> = [[f64; D]; D];
 /// The tensor with the entries `entry(i, j)`.
 #[inline]
 pub(crate) fn build<const D: usize>(entry: impl Fn(usize, usize) -> f64) -> Tensor<D> {
-    array(|i| array(|j| entry(i, j)))
+    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
 }
 
-/// The array with the entries `entry(i)`.
+/// sum += factor A
 #[inline]
-pub(crate) fn array<T, const D: usize>(entry: impl Fn(usize) -> T) -> [T; D] {
-    std::array::from_fn(entry)
+pub(crate) fn add_scaled<const D: usize>(factor: f64, a: &Tensor<D>, sum: &mut Tensor<D>) {
+    for (sum, a) in sum.as_flattened_mut().iter_mut().zip(a.as_flattened()) {
+        *sum += factor * a;
+    }
 }
 
 /// A B^T

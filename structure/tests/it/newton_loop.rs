@@ -237,3 +237,24 @@ fn phases_account_for_the_time_of_a_call() {
     solver.advance(2.0, 1.0).unwrap();
     assert!(solver.phases().assembly > first.assembly);
 }
+
+#[test]
+fn a_step_allocates_nothing() {
+    let line_search = Some(LineSearch { tolerance: 0.8, max_evaluations: 5 });
+    for settings in [dynamic(0.5), StructureSettings { line_search, ..quasi_static() }] {
+        let mut solver = cantilever(0.3, settings);
+        let load = vec![0.01; solver.interface_points().len() * 2];
+        // The first factorization sizes the packing buffer of this thread's matrix kernels.
+        solver.advance(0.1, 0.1).unwrap();
+        let counted = allocation_counter::measure(|| {
+            solver.begin_step(0.2, 0.1);
+            solver.impose(&load);
+            let report =
+                newton::solve(&mut solver, &settings.newton, Limit::ToConvergence, |_, _| Verdict::Continue)
+                    .unwrap();
+            assert!(report.iterations > 1);
+            solver.commit();
+        });
+        assert_eq!(counted.count_total, 0, "{counted:?}");
+    }
+}

@@ -63,7 +63,7 @@ pub struct Checkpoint<T> {
 #[derive(Debug, thiserror::Error)]
 pub enum CheckpointError {
     /// The folder holds none.
-    #[error("{dir}: no checkpoint\nhint: a run writes checkpoints when its scene sets how often; one without has to start anew", dir = dir.display())]
+    #[error("{dir}: no checkpoint\nhint: a run writes its first one after as many steps as `output.checkpoint_every` says; start it anew with `partita run` and --force", dir = dir.display())]
     Missing {
         /// Folder of the run.
         dir: PathBuf,

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use miette::{Diagnostic, Report};
 use partita::build::BuildError;
+use partita::checkpoint::CheckpointError;
 use partita::output::{self, OutputError};
 use partita::scene::SceneError;
 use partita::session::RunError;
@@ -29,6 +30,28 @@ impl Failure {
             format!("{} is not the output folder of a run: it holds no {}", dir.display(), output::SCENE);
         let hint = "give the folder that `partita run` wrote to".to_owned();
         Self { code: WRONG_INPUT, report: Complaint { what, hint }.into() }
+    }
+
+    /// What keeps a run from starting is the command line's fault: its folder cannot be used.
+    pub(crate) fn before_the_first_step(error: RunError) -> Self {
+        match error {
+            RunError::Output(error @ OutputError::Write { .. }) => Self {
+                code: WRONG_INPUT,
+                report: Complaint {
+                    what: Complaint::from_display(&error).what,
+                    hint: "name a folder that can be written with --out".to_owned(),
+                }
+                .into(),
+            },
+            other => other.into(),
+        }
+    }
+
+    /// Standard output takes nothing.
+    pub(crate) fn no_stdout(error: &std::io::Error) -> Self {
+        let what = format!("cannot write to standard output: {error}");
+        let hint = "the results are in the output folder".to_owned();
+        Self { code: FAILED_RUN, report: Complaint { what, hint }.into() }
     }
 
     /// Says it on stderr; returns the exit code.
@@ -64,6 +87,9 @@ impl From<OutputError> for Failure {
                 }
                 .into(),
             },
+            OutputError::Foreign { .. } | OutputError::InUse { .. } => {
+                Self { code: WRONG_INPUT, report: Complaint::from_display(&error).into() }
+            }
             _ => Self { code: FAILED_RUN, report: Complaint::from_display(&error).into() },
         }
     }
@@ -74,6 +100,9 @@ impl From<RunError> for Failure {
         match error {
             RunError::Build(error) => error.into(),
             RunError::Output(error) => error.into(),
+            RunError::Misfit(_) | RunError::Checkpoint(CheckpointError::Missing { .. }) => {
+                Self { code: WRONG_INPUT, report: Complaint::from_display(&error).into() }
+            }
             _ => Self { code: FAILED_RUN, report: Complaint::from_display(&error).into() },
         }
     }

@@ -3,13 +3,15 @@
 mod args;
 mod failure;
 
+use std::fs;
+use std::io::{self, ErrorKind, Write as _};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Parser;
 use partita::output::{Clock, Ending, Summary};
-use partita::session::{Options, Session};
+use partita::session::{Options, RunError, Session};
 use partita::{build, check, output, scene};
 
 use args::{Arguments, Check, Command, Manner, Resume, Run};
@@ -39,13 +41,14 @@ fn run(arguments: &Run, clock: Clock) -> Result<ExitCode, Failure> {
         output::remove_run(&dir)?;
     }
     let text = resolved.to_toml();
-    let session = Session::start(&resolved.scene, &text, &dir, options(&arguments.manner), clock)?;
+    let session = Session::start(&resolved.scene, &text, &dir, options(&arguments.manner), clock)
+        .map_err(Failure::before_the_first_step)?;
     finish(session, &dir, &arguments.manner)
 }
 
 fn check(arguments: &Check) -> Result<ExitCode, Failure> {
     let resolved = scene::load(&arguments.scene.path, &arguments.scene.overrides)?;
-    print!("{}", check::describe(&resolved.scene)?);
+    print(&check::describe(&resolved.scene)?)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -70,25 +73,46 @@ fn options(manner: &Manner) -> Options<'static> {
 }
 
 fn finish(session: Session<'_>, dir: &Path, manner: &Manner) -> Result<ExitCode, Failure> {
-    let summary = session.finish()?;
-    say(&summary, dir, manner);
+    let summary = session.finish().inspect_err(|error| {
+        // Where a summary was asked for there is one of a failed run too.
+        if let (RunError::Step(_), true) = (error, manner.json) {
+            let _ = fs::read_to_string(dir.join(output::SUMMARY)).map(|summary| print(&summary));
+        }
+    })?;
+    if !manner.quiet {
+        comment(&summary, dir);
+    }
+    if manner.json {
+        print(&(serde_json::to_string_pretty(&summary).expect("a summary is plain data") + "\n"))?;
+    } else if !manner.quiet {
+        print(&summary.table().to_plain())?;
+    }
     Ok(match summary.ending {
         Ending::Interrupted => ExitCode::from(INTERRUPTED),
-        Ending::Completed | Ending::Failed => ExitCode::SUCCESS,
+        Ending::Completed | Ending::Stopped | Ending::Failed => ExitCode::SUCCESS,
     })
 }
 
-/// The summary goes to stdout, where it was written to stderr.
-fn say(summary: &Summary, dir: &Path, manner: &Manner) {
-    if manner.json {
-        println!("{}", serde_json::to_string_pretty(summary).expect("a summary is plain data"));
-    } else if !manner.quiet {
-        print!("{}", summary.table().to_plain());
+/// What the user should know beside the summary, on stderr.
+fn comment(summary: &Summary, dir: &Path) {
+    let Summary { steps, unconverged_steps, .. } = summary;
+    let dir = dir.display();
+    if *unconverged_steps > 0 {
+        eprintln!(
+            "warning: {unconverged_steps} of {steps} steps ended on the iteration bound, not converged"
+        );
     }
-    if !manner.quiet {
-        eprintln!("output in {}", dir.display());
+    eprintln!("output in {dir}");
+    if matches!(summary.ending, Ending::Interrupted | Ending::Stopped) {
+        eprintln!("stopped after step {steps}; go on with `partita resume {dir}`");
     }
-    if summary.ending == Ending::Interrupted {
-        eprintln!("stopped after step {}; go on with `partita resume {}`", summary.steps, dir.display());
+}
+
+/// Writes to stdout. A reader who has seen enough is no failure.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::no_stdout(&error)),
+        _ => Ok(()),
     }
 }

@@ -16,7 +16,8 @@ use crate::draw::Drawing;
 use crate::output::{Clock, Ending, OutputError, RunWriter, Summary};
 use crate::probe::Probes;
 use crate::progress::Progress;
-use crate::scene::schema::Scene;
+use crate::scene::schema::{Count, Output, Scene};
+use crate::scene::to_toml;
 
 /// How a run is to be carried out; nothing here changes its numbers.
 #[derive(Debug, Clone, Copy, Default)]
@@ -54,6 +55,8 @@ pub enum RunError {
 /// Everything a run remembers between two steps.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct RunState {
+    /// The scene as far as it decides about the numbers of a step.
+    scene: String,
     march: MarchState,
     fluid: SlotState<FluidState>,
     structure: SlotState<StructureState>,
@@ -106,7 +109,7 @@ impl<'a> Session<'a> {
     ) -> Result<Self, RunError> {
         let checkpoint = checkpoint::load::<RunState>(dir)?;
         let mut run = build::run(scene)?;
-        checkpoint.state.restore(&mut run)?;
+        checkpoint.state.restore(&mut run, scene)?;
         let probes = Probes::new(&scene.output.probes, &run);
         let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
         let writer = RunWriter::resume(dir, &checkpoint.stamp, probes.columns(), clock)?;
@@ -155,7 +158,8 @@ impl<'a> Session<'a> {
                 return Ok(Ending::Interrupted);
             }
         }
-        Ok(Ending::Completed)
+        let done = self.run.clock().steps >= self.scene.time.steps.get();
+        Ok(if done { Ending::Completed } else { Ending::Stopped })
     }
 
     fn step(&mut self, progress: &mut Progress) -> Result<(), RunError> {
@@ -184,24 +188,41 @@ impl<'a> Session<'a> {
     fn save(&mut self) -> Result<(), RunError> {
         let clock = self.run.clock();
         let stamp = self.writer.stamp(clock.steps, clock.time)?;
-        Ok(checkpoint::save(self.writer.dir(), &stamp, &RunState::of(&self.run))?)
+        Ok(checkpoint::save(self.writer.dir(), &stamp, &RunState::of(&self.run, self.scene))?)
     }
 }
 
 impl RunState {
-    /// What `run` remembers now.
-    fn of(run: &Run) -> Self {
-        Self { march: run.state(), fluid: run.first().state(), structure: run.second().state() }
+    /// What `run` of `scene` remembers now.
+    fn of(run: &Run, scene: &Scene) -> Self {
+        Self {
+            scene: decisive(scene),
+            march: run.state(),
+            fluid: run.first().state(),
+            structure: run.second().state(),
+        }
     }
 
-    /// Puts `run` where this state was taken.
-    fn restore(&self, run: &mut Run) -> Result<(), RunError> {
+    /// Puts `run` of `scene` where this state was taken.
+    fn restore(&self, run: &mut Run, scene: &Scene) -> Result<(), RunError> {
+        let now = decisive(scene);
+        if let Some((then, now)) = self.scene.lines().zip(now.lines()).find(|(then, now)| then != now) {
+            return Err(RunError::Misfit(format!("`{}` is now `{}`", then.trim(), now.trim())));
+        }
         let misfit = |error: &dyn Error| RunError::Misfit(error.to_string());
         run.restore(&self.march).map_err(|error| misfit(&error))?;
         let (fluid, structure) = run.participants_mut();
         fluid.restore(&self.fluid).map_err(|error| misfit(&error))?;
         structure.restore(&self.structure).map_err(|error| misfit(&error))
     }
+}
+
+/// The scene without what may change between two sessions of a run: how far it goes, and what is written.
+fn decisive(scene: &Scene) -> String {
+    let mut scene = scene.clone();
+    scene.time.steps = Count::literal(1);
+    scene.output = Output::default();
+    to_toml(&scene)
 }
 
 /// Passes what happens inside a step on to files and terminal; keeps the first refusal for after the step.

@@ -188,11 +188,11 @@ fn padded_points<const D: usize>(points: &[[f64; D]]) -> Vec<f64> {
 
 fn cell_arrays(cells: &Cells) -> [DataArray<'static>; 3] {
     let count = cells.kind.node_count();
-    let connectivity = cells.nodes.iter().map(|&node| node as u64).collect();
-    let offsets = (1..=cells.len()).map(|cell| (cell * count) as u64).collect();
+    let connectivity = cells.nodes.iter().map(|&node| index(node)).collect();
+    let offsets = (1..=cells.len()).map(|cell| index(cell * count)).collect();
     [
-        DataArray::new("connectivity", 1, Values::UInt64(connectivity)),
-        DataArray::new("offsets", 1, Values::UInt64(offsets)),
+        DataArray::new("connectivity", 1, Values::Int64(connectivity)),
+        DataArray::new("offsets", 1, Values::Int64(offsets)),
         DataArray::new("types", 1, Values::UInt8(vec![cells.kind.vtk_id(); cells.len()])),
     ]
 }
@@ -206,4 +206,9 @@ fn field_arrays<'a>(fields: &[Field<'a>]) -> Vec<DataArray<'a>> {
         components => DataArray::new(field.name, components, Values::Float64(field.values.to_vec())),
     };
     fields.iter().map(array).collect()
+}
+
+/// An index as VTK itself writes it; some readers turn unsigned ones into floating-point numbers.
+fn index(value: usize) -> i64 {
+    i64::try_from(value).expect("no mesh has 2^63 nodes")
 }

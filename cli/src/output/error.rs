@@ -30,6 +30,18 @@ pub enum OutputError {
         /// The folder.
         dir: PathBuf,
     },
+    /// The folder of a run holds something else too.
+    #[error("{path} is not of a run; nothing was removed\nhint: move it away, or choose another folder with --out", path = path.display())]
+    Foreign {
+        /// The file or folder.
+        path: PathBuf,
+    },
+    /// Another process writes there.
+    #[error("{path} is being written by another run\nhint: wait for it, or choose another folder with --out", path = path.display())]
+    InUse {
+        /// The file.
+        path: PathBuf,
+    },
     /// A line is not what a run writes.
     #[error("{path}:{line}: {reason}\nhint: the file was changed after the run wrote it, or by another version of Partita", path = path.display())]
     Corrupt {

@@ -179,14 +179,16 @@ fn cut(breakpoints: &[f64], parts: usize) -> Vec<f64> {
 pub(super) fn remove_all(dir: &Path) -> Result<(), OutputError> {
     let folder = dir.join(FOLDER);
     let Ok(entries) = fs::read_dir(&folder) else { return Ok(()) };
-    for path in entries.flatten().map(|entry| entry.path()) {
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let ours = Series::ALL.iter().any(|series| stem.starts_with(series.name()));
-        if ours && path.extension().is_some_and(|extension| extension == "vtu") {
-            remove_if_there(&path)?;
-        }
+    for entry in entries.flatten().filter(|entry| entry.file_name().to_str().is_some_and(is_ours)) {
+        remove_if_there(&entry.path())?;
     }
     // A folder that holds something else stays.
     let _ = fs::remove_dir(&folder);
     Ok(())
+}
+
+/// Whether a file in [`FOLDER`] has the name of a field file, or of the temporary one it is written to.
+pub(super) fn is_ours(name: &str) -> bool {
+    let ours = Series::ALL.iter().any(|series| name.starts_with(series.name()));
+    ours && name.contains(".vtu")
 }

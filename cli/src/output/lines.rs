@@ -1,12 +1,13 @@
 //! Files that grow line by line, and are cut at a line when a run is resumed.
 
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use super::OutputError;
 
-/// A file that only grows. Each line goes to the system at once: a killed run loses none.
+/// A file that only grows. Each line goes to the system at once: a killed run loses none. While it is open no other
+/// process can take it up.
 #[derive(Debug)]
 pub(super) struct LineFile {
     path: PathBuf,
@@ -17,7 +18,7 @@ impl LineFile {
     /// An empty file, in place of what is there.
     pub(super) fn create(path: PathBuf) -> Result<Self, OutputError> {
         match File::create(&path) {
-            Ok(file) => Ok(Self { path, file }),
+            Ok(file) => lock(&file, &path).map(|()| Self { path, file }),
             Err(source) => Err(OutputError::Write { path, source }),
         }
     }
@@ -31,15 +32,11 @@ impl LineFile {
         mut keep: impl FnMut(usize, &str) -> Result<bool, String>,
     ) -> Result<Self, OutputError> {
         let kept = kept_bytes(&path, &mut keep)?;
-        let open = || {
-            let file = OpenOptions::new().append(true).open(&path)?;
-            file.set_len(kept)?;
-            Ok(file)
-        };
-        match open() {
-            Ok(file) => Ok(Self { path, file }),
-            Err(source) => Err(OutputError::Write { path, source }),
-        }
+        let refused = |source| OutputError::Write { path: path.clone(), source };
+        let file = OpenOptions::new().append(true).open(&path).map_err(refused)?;
+        lock(&file, &path)?;
+        file.set_len(kept).map_err(refused)?;
+        Ok(Self { path, file })
     }
 
     /// Appends text that ends with a line's end.
@@ -54,6 +51,16 @@ impl LineFile {
 
     pub(super) fn path(&self) -> &Path {
         &self.path
+    }
+}
+
+/// Takes the lock of a file until it is closed, or says that it is taken. The lock of a dead process is gone.
+pub(super) fn lock(file: &File, path: &Path) -> Result<(), OutputError> {
+    match file.try_lock() {
+        Ok(()) => Ok(()),
+        Err(TryLockError::WouldBlock) => Err(OutputError::InUse { path: path.to_owned() }),
+        // A file system without locks.
+        Err(TryLockError::Error(_)) => Ok(()),
     }
 }
 

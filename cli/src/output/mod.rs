@@ -257,21 +257,37 @@ fn resume_records(path: PathBuf, step: usize) -> Result<(LineFile, Totals, usize
     Ok((file, totals, iterations))
 }
 
-/// Removes what a run has written to `dir`, so that a new one can start there; anything else is left alone, and so is a
-/// folder without records, whose `scene.toml` may be somebody's own.
+/// Removes what a run has written to `dir`, so that a new one can start there.
 ///
 /// # Errors
-/// What the system refuses.
+/// When the folder holds anything else, or another process writes to it: then nothing was removed. Or what the system
+/// refuses.
 pub fn remove_run(dir: &Path) -> Result<(), OutputError> {
-    if !dir.join(RECORDS).exists() {
-        return Ok(());
-    }
+    let records = dir.join(RECORDS);
+    let Ok(file) = fs::File::open(&records) else { return Ok(()) };
+    lines::lock(&file, &records)?;
     let collections = Series::ALL.map(Series::collection);
     let files = [SCENE, STEPS, ITERATIONS, PROBES, SUMMARY].into_iter().chain(checkpoint::FILES);
-    for name in files.chain(collections.iter().map(String::as_str)) {
+    let ours: Vec<&str> = files.chain(collections.iter().map(String::as_str)).collect();
+    let known = |name: &str| {
+        let name = name.strip_suffix(".part").unwrap_or(name);
+        name == RECORDS || name == fields::FOLDER || ours.contains(&name)
+    };
+    refuse_foreign(dir, known)?;
+    refuse_foreign(&dir.join(fields::FOLDER), fields::is_ours)?;
+    for name in ours {
         remove_if_there(&dir.join(name))?;
     }
     fields::remove_all(dir)?;
     // Last: while it is there, what is left is known to be a run's.
-    remove_if_there(&dir.join(RECORDS))
+    remove_if_there(&records)
+}
+
+/// Fails at an entry of `dir` whose name is not `known`; a folder that is not there has none.
+fn refuse_foreign(dir: &Path, known: impl Fn(&str) -> bool) -> Result<(), OutputError> {
+    let Ok(entries) = fs::read_dir(dir) else { return Ok(()) };
+    match entries.flatten().find(|entry| !entry.file_name().to_str().is_some_and(&known)) {
+        Some(entry) => Err(OutputError::Foreign { path: entry.path() }),
+        None => Ok(()),
+    }
 }

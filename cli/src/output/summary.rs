@@ -13,7 +13,9 @@ use super::table::{Cell, Table};
 pub enum Ending {
     /// All its steps are done.
     Completed,
-    /// It was stopped from outside; it can be resumed.
+    /// It was asked to stop before the scene's last step; it can be resumed.
+    Stopped,
+    /// It was interrupted from outside; it can be resumed.
     Interrupted,
     /// A step could not be solved.
     Failed,
@@ -162,6 +164,8 @@ pub struct Summary {
     pub ending: Ending,
     /// Finished steps, all sessions.
     pub steps: usize,
+    /// Those among them that ended on the iteration bound and were accepted.
+    pub unconverged_steps: usize,
     /// Coupling iterations of these steps.
     pub coupling_iterations: usize,
     /// Newton iterations of the fluid.
@@ -186,6 +190,7 @@ impl Summary {
             converged: ending != Ending::Failed && totals.unconverged_steps == 0,
             ending,
             steps: totals.steps,
+            unconverged_steps: totals.unconverged_steps,
             coupling_iterations: totals.coupling_iterations,
             newton_fluid: totals.newton_fluid,
             newton_structure: totals.newton_structure,

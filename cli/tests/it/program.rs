@@ -63,6 +63,7 @@ fn check_says_what_a_scene_is() {
       fluid       400 triangles, 221 nodes, 601 unknowns
                   area 1 m2, x from 0 to 1 m, y from 0 to 1 m
                   shape quality 0.866 on average, 0.866 at worst (1 is equilateral)
+                  body force [0.0, -9.81] m/s2 (per mass)
                   bdf1, tangent picard
                   left      10 edges  no_slip
                   right     10 edges  no_slip
@@ -71,6 +72,7 @@ fn check_says_what_a_scene_is() {
       structure   60 x 1 elements of degree 2 x 2, 186 control points, 360 unknowns
                   x from 0 to 1 m, y from -0.05 to 0 m
                   saint_venant_kirchhoff (young_modulus 5000000.0, poisson_ratio 0.3, plane strain)
+                  body force [0.0, 0.0] N/m3 (per volume)
                   generalized_alpha (spectral_radius 1.0)
                   clamped: left, right; wetted: top
       interface   11 fluid nodes on 60 control points that move
@@ -228,4 +230,91 @@ fn a_fluid_alone_and_a_structure_alone_run() {
         let probes = fs::read_to_string(folder.join("out/probes.csv")).expect("probes");
         assert_eq!(probes.lines().count(), 3, "{probes}");
     }
+}
+
+/// A finished short run of the sound scene in `out`, below the folder.
+fn run_in(folder: &Path, more: &[&str]) -> Outcome {
+    let arguments = ["run", "case.toml", "--out", "out", "--set", "output.fields_every=0", "--steps", "2"];
+    partita(folder, &[&arguments[..], more].concat())
+}
+
+#[test]
+fn force_removes_nothing_where_a_run_lies_beside_other_files() {
+    let (_guard, folder) = folder_with(SOUND);
+    assert_eq!(run_in(&folder, &[]).code, 0);
+    fs::write(folder.join("out/notes.txt"), "keep").expect("a note");
+    let before = entries(&folder.join("out"));
+    let outcome = run_in(&folder, &["--force"]);
+    assert_eq!(outcome.code, 2);
+    assert!(outcome.stderr.contains("notes.txt") && outcome.stderr.contains("nothing was removed"));
+    assert_eq!(entries(&folder.join("out")), before);
+}
+
+#[test]
+fn a_folder_in_use_is_left_alone() {
+    let (_guard, folder) = folder_with(SOUND);
+    assert_eq!(run_in(&folder, &[]).code, 0);
+    let records = fs::File::open(folder.join("out/run.jsonl")).expect("records");
+    records.lock().expect("another run holds the folder");
+    let size = records.metadata().expect("a file").len();
+    for outcome in [partita(&folder, &["resume", "out"]), run_in(&folder, &["--force"])] {
+        assert_eq!(outcome.code, 2);
+        assert!(outcome.stderr.contains("is being written by another run"), "{}", outcome.stderr);
+    }
+    assert_eq!(records.metadata().expect("a file").len(), size);
+}
+
+#[test]
+fn a_scene_that_was_changed_is_not_resumed_but_a_longer_one_is() {
+    let (_guard, folder) = folder_with(SOUND);
+    assert_eq!(run_in(&folder, &[]).code, 0);
+    let file = folder.join("out/scene.toml");
+    let scene = fs::read_to_string(&file).expect("the resolved scene");
+    fs::write(&file, scene.replace("viscosity = 200.0", "viscosity = 20.0")).expect("a changed scene");
+    let outcome = partita(&folder, &["resume", "out"]);
+    assert_eq!(outcome.code, 2);
+    assert!(outcome.stderr.contains("`viscosity = 200.0` is"), "{}", outcome.stderr);
+    fs::write(&file, scene.replace("steps = 50", "steps = 60")).expect("a longer scene");
+    let outcome = partita(&folder, &["resume", "out", "--steps", "3"]);
+    assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("stopped after step 3; go on with `partita resume out`"));
+}
+
+#[test]
+fn accepted_steps_that_did_not_converge_are_spoken_of() {
+    let (_guard, folder) = folder_with(SOUND);
+    let outcome =
+        run_in(&folder, &["--set", "coupling.on_limit=accept", "--set", "coupling.max_iterations=2"]);
+    assert_eq!(outcome.code, 0);
+    assert!(outcome.stderr.starts_with("warning: 2 of 2 steps ended on the iteration bound"));
+}
+
+#[test]
+fn a_reader_who_leaves_early_is_no_failure() {
+    let mut check = Command::new(env!("CARGO_BIN_EXE_partita"))
+        .args(["check", &tank()])
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    drop(check.stdout.take());
+    let output = check.wait_with_output().expect("the program ends");
+    assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
+}
+
+#[test]
+fn a_failed_run_has_a_summary_in_json_too() {
+    let (_guard, folder) = folder_with(SOUND);
+    let outcome = run_in(&folder, &["--json", "--set", "coupling.max_iterations=2"]);
+    assert_eq!(outcome.code, 3);
+    let summary: Value = serde_json::from_str(&outcome.stdout).expect("the summary is JSON");
+    assert_eq!(summary["ending"], "failed");
+}
+
+#[test]
+fn a_place_that_is_no_folder_exits_2() {
+    let (_guard, folder) = folder_with(SOUND);
+    let outcome = partita(&folder, &["run", "case.toml", "--out", "case.toml"]);
+    assert_eq!(outcome.code, 2);
+    assert!(outcome.stderr.contains("--out"), "{}", outcome.stderr);
 }

@@ -17,7 +17,7 @@ const BLOCK: usize = 1 << 15;
 
 pub(super) enum Values {
     Float64(Vec<f64>),
-    UInt64(Vec<u64>),
+    Int64(Vec<i64>),
     UInt8(Vec<u8>),
 }
 
@@ -53,7 +53,7 @@ impl Values {
     fn type_name(&self) -> &'static str {
         match self {
             Self::Float64(_) => "Float64",
-            Self::UInt64(_) => "UInt64",
+            Self::Int64(_) => "Int64",
             Self::UInt8(_) => "UInt8",
         }
     }
@@ -61,7 +61,7 @@ impl Values {
     fn bytes(&self) -> Vec<u8> {
         match self {
             Self::Float64(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
-            Self::UInt64(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
+            Self::Int64(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
             Self::UInt8(values) => values.clone(),
         }
     }
@@ -69,7 +69,7 @@ impl Values {
     fn text(&self, components: usize) -> String {
         match self {
             Self::Float64(values) => lines(values, components),
-            Self::UInt64(values) => lines(values, components),
+            Self::Int64(values) => lines(values, components),
             Self::UInt8(values) => lines(values, components),
         }
     }

@@ -105,13 +105,13 @@ fn text_form_is_readable() {
     </DataArray>
           </Points>
           <Cells>
-            <DataArray type="UInt64" Name="connectivity" format="ascii">
+            <DataArray type="Int64" Name="connectivity" format="ascii">
     0
     1
     2
     3
     </DataArray>
-            <DataArray type="UInt64" Name="offsets" format="ascii">
+            <DataArray type="Int64" Name="offsets" format="ascii">
     4
     </DataArray>
             <DataArray type="UInt8" Name="types" format="ascii">

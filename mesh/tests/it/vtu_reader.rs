@@ -91,7 +91,7 @@ fn decode(text: &str, kind: &str) -> Vec<f64> {
     assert_eq!(start, data.len(), "bytes after the last block");
     match kind {
         "Float64" => bytes.chunks_exact(8).map(|b| f64::from_le_bytes(b.try_into().expect("8"))).collect(),
-        "UInt64" => u64s(&bytes).into_iter().map(|value| value as f64).collect(),
+        "Int64" => u64s(&bytes).into_iter().map(|value| value as f64).collect(),
         "UInt8" => bytes.into_iter().map(f64::from).collect(),
         other => panic!("unknown type {other}"),
     }

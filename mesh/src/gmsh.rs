@@ -5,7 +5,8 @@
 //! | [`document`] | [`GmshFile`]: nodes, elements and group names as the file gives them |
 //! | [`element`] | [`ElementKind`]: the element types that are read |
 //! | [`convert`] | from the file to a [`Mesh`](crate::Mesh) of triangles or tetrahedra |
-//! | [`error`] | [`ParseError`], [`ConvertError`]: what is wrong, where in the file, what to do |
+//! | [`error`] | [`ParseError`], [`ConvertError`], [`ReadError`]: what went wrong and where |
+//! | [`fault`] | [`Fault`]: all that can be wrong in a file, each with a hint |
 //!
 //! Nothing is repaired on the way: a file that contradicts itself is refused where it does. Sizes are checked
 //! against the bytes that are left before anything is allocated, so a broken count costs nothing.
@@ -47,6 +48,7 @@ pub mod document;
 pub mod element;
 mod entities;
 pub mod error;
+pub mod fault;
 mod header;
 mod names;
 mod numbering;
@@ -56,4 +58,5 @@ mod version4;
 
 pub use document::{ElementBlock, GmshFile, GroupName};
 pub use element::ElementKind;
-pub use error::{ConvertError, Fault, ParseError, Position, ReadError};
+pub use error::{ConvertError, ParseError, Position, ReadError};
+pub use fault::Fault;

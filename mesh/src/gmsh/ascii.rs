@@ -3,7 +3,8 @@
 use std::str::FromStr;
 
 use super::cursor::{Cursor, Encoding};
-use super::error::{Fault, ParseError, excerpt};
+use super::error::ParseError;
+use super::fault::{Fault, excerpt};
 
 impl<'a> Cursor<'a> {
     /// The next word of this line.

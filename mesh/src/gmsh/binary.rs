@@ -1,7 +1,8 @@
 //! Binary values: a fixed number of bytes in the byte order of the file.
 
 use super::cursor::Cursor;
-use super::error::{Fault, ParseError};
+use super::error::ParseError;
+use super::fault::Fault;
 
 impl Cursor<'_> {
     /// The next `N` bytes.

@@ -25,7 +25,8 @@ impl GmshFile {
     /// A cell that several blocks name because it is in several groups counts once.
     ///
     /// Clockwise triangles are refused, not turned: whether the geometry or a cell is the wrong way round cannot
-    /// be seen here, and turning a surface in gmsh is one line.
+    /// be seen here, and turning a surface in gmsh is one line. Beware of surfaces in a group with a minus sign:
+    /// gmsh turns their triangles when it writes 2.2, but not when it writes 4.1.
     ///
     /// # Errors
     /// [`ConvertError`] when there are no such cells, or quadrilaterals or elements of second order beside them,
@@ -122,7 +123,7 @@ impl GmshFile {
                 }
             }
         }
-        if groups.is_empty() {
+        if groups.values().all(|(_, facets)| facets.is_empty()) {
             return Err(ConvertError::NoGroups { facet: kind });
         }
         Ok(groups.into_values().collect())

@@ -1,6 +1,7 @@
 //! The place in the file: values are taken one after the other, as text or binary.
 
-use super::error::{Fault, ParseError, Position};
+use super::error::{ParseError, Position};
+use super::fault::Fault;
 
 /// How numbers are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

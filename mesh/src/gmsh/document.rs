@@ -8,7 +8,9 @@ use super::parser;
 
 /// A gmsh file: nodes, elements and the names of physical groups.
 ///
-/// The same mesh saved as 2.2 or 4.1, as text or binary, gives the same document.
+/// The same mesh saved as 2.2 or 4.1, as text or binary, gives the same document (elements in several groups
+/// excepted, see [`ElementBlock::groups`]). Entities, parameters, partitions of 2.2, element tags, periodicity and
+/// results are passed over.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GmshFile {
     /// The number gmsh gave each node: positive, in any order, with gaps.

@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use super::cursor::Cursor;
-use super::error::{Fault, ParseError};
+use super::error::ParseError;
+use super::fault::Fault;
 use super::numbering::GroupSets;
 
 /// The set of groups of each entity, found by dimension and tag.

@@ -1,7 +1,8 @@
 //! `$MeshFormat`: version, encoding and byte order.
 
 use super::cursor::{Cursor, Encoding};
-use super::error::{Fault, ParseError, excerpt};
+use super::error::ParseError;
+use super::fault::{Fault, excerpt};
 
 /// The formats that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

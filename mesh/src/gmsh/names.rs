@@ -4,7 +4,8 @@ use std::collections::HashSet;
 
 use super::cursor::Cursor;
 use super::document::GroupName;
-use super::error::{Fault, ParseError, excerpt};
+use super::error::ParseError;
+use super::fault::{Fault, excerpt};
 
 /// Reads lines of dimension, tag and quoted name.
 pub(super) fn read(cursor: &mut Cursor) -> Result<Vec<GroupName>, ParseError> {

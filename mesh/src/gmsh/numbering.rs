@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, HashMap};
 use super::cursor::Cursor;
 use super::document::ElementBlock;
 use super::element::{ElementKind, foreign_name};
-use super::error::{Fault, ParseError};
+use super::error::ParseError;
+use super::fault::Fault;
 
 /// Nodes in the order of the file, found by their tags.
 #[derive(Default)]

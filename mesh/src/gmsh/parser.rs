@@ -3,7 +3,8 @@
 use super::cursor::Cursor;
 use super::document::{ElementBlock, GmshFile, GroupName};
 use super::entities::{self, Entities};
-use super::error::{Fault, ParseError};
+use super::error::ParseError;
+use super::fault::Fault;
 use super::header::{self, Version};
 use super::names;
 use super::numbering::{GroupSets, NodeList};
@@ -52,6 +53,7 @@ impl Parser<'_> {
                 self.entities = Some(entities::read(&mut self.cursor, &mut self.sets)?);
             }
             "PartitionedEntities" => return Err(self.cursor.fail(Fault::Partitioned)),
+            "ParametricNodes" => return Err(self.cursor.fail(Fault::ParametricNodes)),
             "Nodes" => {
                 self.first(self.nodes.is_some())?;
                 self.nodes = Some(match self.version {

@@ -2,7 +2,8 @@
 
 use super::cursor::Cursor;
 use super::entities::Entities;
-use super::error::{Fault, ParseError};
+use super::error::ParseError;
+use super::fault::Fault;
 use super::numbering::{Blocks, GroupSets, NodeList, kind};
 
 pub(super) fn nodes(cursor: &mut Cursor) -> Result<NodeList, ParseError> {

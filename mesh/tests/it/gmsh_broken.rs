@@ -75,6 +75,7 @@ fn broken_headers_and_sections() {
         ("nodes twice", edit(two, "$Elements\n", "$Nodes\n0\n$EndNodes\n$Elements\n")),
         ("two files in one", [two, two].concat()),
         ("partitioned", edit(four, "$Nodes\n", "$PartitionedEntities\n2\n$EndPartitionedEntities\n$Nodes\n")),
+        ("parametric nodes of format 2", edit(two, "$Nodes\n", "$ParametricNodes\n")),
         ("misspelt section", edit(two, "$Nodes\n", "$Node\n")),
         ("misspelt end", edit(two, "$EndNodes\n", "$Endnodes\n")),
         ("text after the last section", [two, b"73 1 2 1 1 1 7\n"].concat()),
@@ -260,6 +261,14 @@ fn files_that_make_no_mesh() {
                 file.blocks.iter_mut().for_each(|block| block.groups.clear());
             }),
         ),
+        (
+            "names, but Mesh.SaveAll of format 2.2 has lost the groups",
+            space({
+                let mut file = prism();
+                file.blocks.iter_mut().for_each(|block| block.groups.clear());
+                file
+            }),
+        ),
         ("named group without elements", plate(|file| file.names.push(name(12, "wall")))),
         ("two groups of one name", plate(|file| file.names[1].name = "top".into())),
         ("curve in two groups", plate(|file| file.blocks[1].groups.push(4))),
@@ -271,15 +280,6 @@ fn files_that_make_no_mesh() {
                 file.node_tags.push(500);
                 file.points.push([2.0, 0.5, 0.0]);
                 file.blocks[1].nodes.extend([1, 36]);
-            }),
-        ),
-        (
-            "no surface groups in space",
-            space({
-                let mut file = prism();
-                file.names.clear();
-                file.blocks.iter_mut().for_each(|block| block.groups.clear());
-                file
             }),
         ),
     ];

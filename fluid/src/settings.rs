@@ -41,7 +41,8 @@ pub struct PressurePin {
 }
 
 /// Settings of a fluid solver; immutable once it is built.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct FluidSettings {
     /// Steady or unsteady.
     pub time: TimeScheme,

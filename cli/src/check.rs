@@ -9,7 +9,9 @@ use partita_mesh::{Mesh, quality};
 use partita_structure::StructureSolver;
 
 use crate::build::{self, BuildError};
-use crate::scene::schema::{Condition, Count, Coupling, Degree, Fluid, Geometry, Scene, Side, Structure};
+use crate::scene::schema::{
+    Condition, Count, Coupling, Degree, Fluid, Geometry, Scene, Side, Structure, plain,
+};
 use crate::scene::words;
 
 /// Builds the scene and describes it: title, meshes with their boundary groups, splines, interface, choices. The last
@@ -21,8 +23,8 @@ pub fn describe(scene: &Scene) -> Result<String, BuildError> {
     let run = build::run(scene)?;
     let (fluid, structure) = (run.first().field(), run.second().field());
     let mut page = Page { text: format!("{}\n", scene.title) };
-    let (steps, step) = (scene.time.steps.get(), scene.time.step.get());
-    page.line("time", format!("{steps} steps of {step} s, to t = {} s", short(steps as f64 * step)));
+    let (steps, step) = (scene.time.steps.get(), scene.time.step);
+    page.line("time", format!("{steps} steps of {step} s, to t = {} s", short(steps as f64 * step.get())));
     if let (Some(scene), Some(fluid)) = (&scene.fluid, fluid) {
         page.fluid(scene, fluid);
     }
@@ -62,6 +64,7 @@ impl Page {
                 quality.mean_quality, quality.worst_quality
             ),
         );
+        self.line("", format!("body force {} m/s2 (per mass)", words(&scene.body_force)));
         self.line("", format!("{}, tangent {}", words(&scene.time_scheme), words(&scene.tangent)));
         self.boundary(mesh, &scene.boundary);
     }
@@ -89,6 +92,7 @@ impl Page {
         );
         self.line("", extent_of(spline));
         self.line("", words(&scene.material));
+        self.line("", format!("body force {} N/m3 (per volume)", words(&scene.body_force)));
         self.line("", words(&scene.time_scheme));
         self.line("", format!("clamped: {}; wetted: {}", names(&scene.clamped), names(&scene.wetted)));
     }
@@ -131,6 +135,6 @@ fn box_of([left, right]: [f64; 2], [bottom, top]: [f64; 2]) -> String {
 }
 
 /// Nine digits: enough for a reader, without the noise of the last bits.
-fn short(number: f64) -> f64 {
-    format!("{number:.8e}").parse().unwrap_or(number)
+fn short(number: f64) -> String {
+    plain(format!("{number:.8e}").parse().unwrap_or(number))
 }

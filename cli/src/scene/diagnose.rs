@@ -11,7 +11,7 @@ use super::finding::Finding;
 
 /// Why a scene cannot be run. Nothing has been written when it is returned.
 #[derive(Debug, Error)]
-#[error("{}", self.first())]
+#[error("{}", self.head())]
 pub struct SceneError {
     problems: Vec<Problem>,
 }
@@ -57,8 +57,16 @@ impl SceneError {
         &self.problems
     }
 
-    fn first(&self) -> &Problem {
-        self.problems.first().expect("an error has a problem")
+    /// The problem, if it is the only one.
+    fn alone(&self) -> Option<&Problem> {
+        self.problems.first().filter(|_| self.problems.len() == 1)
+    }
+
+    fn head(&self) -> String {
+        self.alone().map_or_else(
+            || format!("{} things are wrong in the scene", self.problems.len()),
+            |problem| problem.what.clone(),
+        )
     }
 }
 
@@ -106,19 +114,19 @@ impl Diagnostic for Problem {
 
 impl Diagnostic for SceneError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.first().help()
+        self.alone()?.help()
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.first().source_code()
+        self.alone()?.source_code()
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        self.first().labels()
+        self.alone()?.labels()
     }
 
     fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
-        let more = self.problems.get(1..).filter(|more| !more.is_empty())?;
-        Some(Box::new(more.iter().map(|problem| problem as &dyn Diagnostic)))
+        let several = self.alone().is_none().then_some(&self.problems)?;
+        Some(Box::new(several.iter().map(|problem| problem as &dyn Diagnostic)))
     }
 }

@@ -40,9 +40,9 @@ impl Sources {
     pub(super) fn new(name: &str, text: &str, overrides: &[Override]) -> Self {
         let mut all = vec![Source { name: name.to_owned(), padded: text.to_owned(), start: 0, names: 0 }];
         let mut end = text.len() + 1;
-        for Override { text, names } in overrides {
+        for Override { text, path } in overrides {
             let padded = format!("{:end$}{text}", "");
-            all.push(Source { name: "--set".to_owned(), padded, start: end, names: *names });
+            all.push(Source { name: "--set".to_owned(), padded, start: end, names: path.len() });
             end += text.len() + 1;
         }
         Self(all)
@@ -122,6 +122,21 @@ impl<'a> Document<'a> {
         path
     }
 
+    /// Follows a choice down to the one value it holds: from `filter` to `filter.qr3`.
+    ///
+    /// The deserializer blames the table of the choice for that value.
+    pub(super) fn follow_choice(&self, path: &mut Vec<String>, place: &mut Range<usize>) {
+        while schema::is_choice(path) {
+            let entries = self.keys(path);
+            let [(name, _)] = &entries[..] else { return };
+            path.push(name.clone());
+            let names: Vec<&str> = path.iter().map(String::as_str).collect();
+            if let Some(entry) = self.entry(&names) {
+                *place = entry.value;
+            }
+        }
+    }
+
     /// Writes `aitken = {}` for the bare word `"aitken"` wherever one of several choices is named, so that a
     /// choice that needs nothing else needs no table.
     fn spell_out_choices(&mut self) {
@@ -176,34 +191,41 @@ fn spell_out(value: &mut Spanned<DeValue<'_>>) {
     }
 }
 
-/// Moves the one entry of `from`, `names` deep, into `into`.
+/// Moves the one entry of `from`, `names` deep, into `into`; returns the place of its value.
 ///
-/// Where one of several choices is made, a new choice takes the place of the old one.
+/// Where one of several choices is made, a new choice takes the place of the old one, and the table that holds it
+/// stands where the override does: the deserializer blames that table for a wrong value of a choice.
 fn insert<'a>(
     into: &mut DeTable<'a>,
     from: DeTable<'a>,
     names: usize,
     path: &mut Vec<String>,
-) -> Result<(), Finding> {
+) -> Result<Range<usize>, Finding> {
     let (key, value) = from.into_iter().next().expect("an override holds one entry");
     if schema::is_choice(path) && !into.contains_key(key.get_ref().as_ref()) {
         into.clear();
     }
     path.push(key.get_ref().to_string());
     if names == 1 {
+        let place = value.span();
         into.remove(key.get_ref().as_ref());
         into.insert(key, value);
-        return Ok(());
+        return Ok(place);
     }
     let DeValue::Table(inner) = value.into_inner() else {
         unreachable!("a dotted key holds tables down to its last name")
     };
     let span = key.span();
     let slot = into.entry(key).or_insert_with(|| Spanned::new(span.clone(), DeValue::Table(DeTable::new())));
-    match slot.get_mut() {
-        DeValue::Table(table) => insert(table, inner, names - 1, path),
-        _ => Err(Finding::new(format!("{} is a value, not a table", path.join(".")))
+    let DeValue::Table(table) = slot.get_mut() else {
+        return Err(Finding::new(format!("{} is a value, not a table", path.join(".")))
             .mark(span, "nothing can be set inside it")
-            .hint(format!("set `{}` itself", path.join(".")))),
+            .hint(format!("set `{}` itself", path.join("."))));
+    };
+    let depth = path.len();
+    let place = insert(table, inner, names - 1, path)?;
+    if schema::is_choice(&path[..depth]) {
+        *slot = Spanned::new(place.clone(), DeValue::Table(std::mem::take(table)));
     }
+    Ok(place)
 }

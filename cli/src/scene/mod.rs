@@ -7,7 +7,7 @@ mod diagnose;
 mod document;
 mod finding;
 mod overrides;
-mod reference;
+pub mod reference;
 mod resolve;
 pub mod schema;
 mod translate;

@@ -2,6 +2,8 @@
 
 use toml::de::{DeTable, DeValue};
 
+use super::schema;
+
 /// Names in a key; a scene needs five.
 const LONGEST_KEY: usize = 12;
 
@@ -10,8 +12,8 @@ const LONGEST_KEY: usize = 12;
 pub(super) struct Override {
     /// One line of TOML: `coupling.predictor = "linear"`.
     pub(super) text: String,
-    /// Names in its key.
-    pub(super) names: usize,
+    /// The names in its key, from the outermost in.
+    pub(super) path: Vec<String>,
 }
 
 impl Override {
@@ -21,46 +23,54 @@ impl Override {
     ///
     /// A sentence about what is wrong with it.
     pub(super) fn read(given: &str) -> Result<Self, String> {
-        let (key, names, value) = split(given)?;
+        let (key, path, value) = split(given)?;
         if DeValue::parse(value).is_ok() {
-            return Ok(Self { text: format!("{key} = {value}"), names });
+            return Ok(Self { text: format!("{key} = {value}"), path });
         }
         let bare = value.starts_with(|c: char| c.is_alphabetic() || matches!(c, '_' | '.' | '/'));
         if bare && !value.contains(|c: char| c.is_control() || matches!(c, '"' | '\\')) {
-            return Ok(Self { text: format!("{key} = \"{value}\""), names });
+            return Ok(Self { text: format!("{key} = \"{value}\""), path });
         }
         if value.is_empty() {
             return Err("there is no value behind the `=`".to_owned());
         }
         Err(format!("`{value}` is neither a TOML value nor a bare word"))
     }
+
+    /// Where the two make different choices in one place: its path, and the choice of each.
+    pub(super) fn rivals<'a>(&'a self, other: &'a Self) -> Option<(&'a [String], &'a str, &'a str)> {
+        let shared = self.path.iter().zip(&other.path).take_while(|(one, two)| one == two).count();
+        let (place, rest) = self.path.split_at(shared);
+        let (mine, yours) = (rest.first()?, other.path.get(shared)?);
+        schema::is_choice(place).then_some((place, mine, yours))
+    }
 }
 
-/// The key, how many names it has, and the value: cut at the first `=` that leaves a key before it.
-fn split(given: &str) -> Result<(&str, usize, &str), String> {
+/// The key, the names in it, and the value: cut at the first `=` that leaves a key before it.
+fn split(given: &str) -> Result<(&str, Vec<String>, &str), String> {
     let cut = given.match_indices('=').find_map(|(at, _)| {
         let key = given[..at].trim();
         names_in(key).map(|names| (key, names, given[at + 1..].trim()))
     });
     match cut {
-        Some((_, names, _)) if names > LONGEST_KEY => Err("the key has too many names".to_owned()),
+        Some((_, names, _)) if names.len() > LONGEST_KEY => Err("the key has too many names".to_owned()),
         Some(cut) => Ok(cut),
         None if given.contains('=') => Err("what stands before the `=` is not a key".to_owned()),
         None => Err("there is no `=` in it".to_owned()),
     }
 }
 
-fn names_in(key: &str) -> Option<usize> {
+fn names_in(key: &str) -> Option<Vec<String>> {
     if key.contains(['\n', '#']) {
         return None;
     }
     let line = format!("{key} = 0");
     let parsed = DeTable::parse(&line).ok()?;
     let mut table = parsed.get_ref();
-    let mut names = 0;
+    let mut names = Vec::new();
     loop {
-        let (_, value) = table.iter().next()?;
-        names += 1;
+        let (name, value) = table.iter().next()?;
+        names.push(name.get_ref().to_string());
         match value.get_ref() {
             DeValue::Table(inner) => table = inner,
             _ => return Some(names),
@@ -73,7 +83,7 @@ mod tests {
     use super::*;
 
     fn read(given: &str) -> Result<(String, usize), String> {
-        Override::read(given).map(|read| (read.text, read.names))
+        Override::read(given).map(|read| (read.text, read.path.len()))
     }
 
     #[test]

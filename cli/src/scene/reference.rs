@@ -2,12 +2,16 @@
 //!
 //! All of it comes from the doc comments and types of [`schema`](super::schema), so messages cannot fall behind.
 
+mod page;
+
 use std::sync::LazyLock;
 
 use schemars::schema_for;
 use serde_json::Value;
 
 use super::schema::Scene;
+
+pub use page::markdown;
 
 static SCENE: LazyLock<Value> = LazyLock::new(|| schema_for!(Scene).to_value());
 

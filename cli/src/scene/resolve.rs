@@ -1,6 +1,7 @@
 //! From a file and overrides to a scene that can be built.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -58,6 +59,9 @@ pub fn load(path: &Path, overrides: &[String]) -> Result<Resolved, SceneError> {
 /// [`SceneError`] with every place that is wrong and how to mend it.
 pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, SceneError> {
     let overrides = overrides.iter().map(|given| read_override(given)).collect::<Result<Vec<_>, _>>()?;
+    if let Some(error) = rivals(&overrides) {
+        return Err(error);
+    }
     let sources = Sources::new(name, text, &overrides);
     check(&sources).map_err(|mut findings| {
         let alone = Sources::new(name, text, &[]);
@@ -82,6 +86,22 @@ fn read_override(given: &str) -> Result<Override, SceneError> {
             &what,
             "an override is `--set key.path=value`, such as `--set time.steps=3`",
         )
+    })
+}
+
+/// Two overrides that make different choices in one place: the last would win without a word.
+fn rivals(overrides: &[Override]) -> Option<SceneError> {
+    let mut pairs = overrides
+        .iter()
+        .enumerate()
+        .flat_map(|(at, later)| overrides[..at].iter().map(move |earlier| (earlier, later)));
+    pairs.find_map(|(earlier, later)| {
+        let (place, first, second) = earlier.rivals(later)?;
+        Some(SceneError::argument(
+            &later.text,
+            &format!("{} cannot be both `{first}` and `{second}`", place.join(".")),
+            &format!("leave out this one, or `--set {}`", earlier.text),
+        ))
     })
 }
 
@@ -136,6 +156,10 @@ fn name_of(file: &Path) -> String {
 
 fn unreadable(path: &Path, file: &Path, error: &std::io::Error) -> SceneError {
     let what = format!("{} cannot be read: {error}", file.display());
+    if error.kind() == ErrorKind::InvalidData {
+        let what = format!("{} is not text", file.display());
+        return SceneError::plain(what, "a scene file is text in UTF-8: name that file, or save it as UTF-8");
+    }
     let hint = if path.is_dir() {
         format!("a folder stands for the `{SCENE_FILE}` in it; name the file if it is called otherwise")
     } else {

@@ -25,6 +25,7 @@ pub use fluid::{
 pub use formula::{Formula, VectorFormula, VectorFunction};
 pub use limit::Limit;
 pub use newton::{Check, Newton, Tolerance};
+pub(crate) use numbers::plain;
 pub use numbers::{
     Count, Fraction, NonNegative, NotACount, OutOfRange, Parameter, PoissonRatio, Positive, Real, Relaxation,
     SpectralRadius,

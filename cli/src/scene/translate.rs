@@ -11,7 +11,7 @@ use crate::nearest::nearest;
 /// What a deserialization error means in this scene.
 pub(super) fn translate(error: &toml::de::Error, document: &Document<'_>, sources: &Sources) -> Finding {
     let place = error.span().unwrap_or(0..0);
-    let context = Context { text: sources.text_at(&place), path: document.path_to(&place), place };
+    let mut context = Context { text: sources.text_at(&place), path: document.path_to(&place), place };
     let message = error.message();
     let names: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     if message.starts_with("unknown field") {
@@ -31,6 +31,8 @@ pub(super) fn translate(error: &toml::de::Error, document: &Document<'_>, source
     if message.starts_with("wanted exactly 1 element") {
         return context.not_one_choice(document);
     }
+    document.follow_choice(&mut context.path, &mut context.place);
+    context.text = sources.text_at(&context.place);
     if let Some(wanted) = message.strip_prefix("invalid ").and_then(|m| m.rsplit_once(", expected ")) {
         return context.wrong_kind(wanted.1);
     }
@@ -159,7 +161,7 @@ fn plain_kind(kind: &str) -> String {
     match kind {
         "f64" => "a number".to_owned(),
         "i64" => "a whole number".to_owned(),
-        "usize" => "zero or a whole number above it".to_owned(),
+        "usize" => "a count of zero or more".to_owned(),
         "a string" => "text in quotes".to_owned(),
         "a boolean" => "true or false".to_owned(),
         "a sequence" => "a list".to_owned(),

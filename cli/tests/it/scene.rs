@@ -3,6 +3,7 @@
 mod broken;
 mod mutilated;
 mod overrides;
+mod page;
 
 use std::path::Path;
 

@@ -8,12 +8,18 @@ use thiserror::Error;
 
 /// A number outside the range its place in a scene allows.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("{value} is not {expected}")]
+#[error("{} is not {expected}", plain(*.value))]
 pub struct OutOfRange {
     /// The number as it was given.
     pub value: f64,
     /// What the place allows, such as `a number above zero`.
     pub expected: &'static str,
+}
+
+/// A number in the shortest form that gives the same bits: 0.01, 1000, 1e300.
+pub(crate) fn plain(number: f64) -> String {
+    let moderate = number == 0.0 || (1e-4..1e7).contains(&number.abs()) || !number.is_finite();
+    if moderate { format!("{number}") } else { format!("{number:e}") }
 }
 
 macro_rules! ranged {
@@ -60,7 +66,7 @@ macro_rules! ranged {
 
         impl fmt::Display for $name {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                self.0.fmt(f)
+                f.pad(&plain(self.0))
             }
         }
     };

@@ -170,6 +170,9 @@ fn a_probe_outside_the_mesh_is_refused() {
 #[test]
 fn several_mistakes_are_shown_together() {
     assert_snapshot!(broken("left = \"no_slip\"\nright = \"no_slip\"", "left = \"no_slip\"\nrigth = \"no_slip\"\ninside = \"slip\""), @r#"
+      × 2 things are wrong in the scene
+
+    Error: 
       × the mesh has no boundary group `rigth`
         ╭─[scene.toml:18:1]
      17 │ left = "no_slip"

@@ -2,6 +2,10 @@
 
 use insta::assert_snapshot;
 
+use std::fs;
+
+use partita::scene::load;
+
 use super::{SOUND, message};
 
 #[test]
@@ -84,5 +88,154 @@ fn an_override_that_breaks_the_fit_is_shown() {
       help: an incompressible fluid cannot give way, and its pressure has no level: make one group
             "stress_free" or "do_nothing"
             without the overrides the scene is sound: look at the `--set`s
+    "#);
+}
+
+/// The sound scene with its defaults written out, as the shipped scene writes them.
+fn spelled_out() -> String {
+    format!(
+        "{SOUND}filter = {{ qr3 = 0.1 }}\n\n[coupling.newton.fixed]\nfluid = \"unlimited\"\n\n\
+         [fluid.newton]\ntolerance = {{ absolute = 5e-9 }}\n"
+    )
+}
+
+#[test]
+fn a_policy_out_of_range_is_blamed_on_the_override() {
+    assert_snapshot!(message(&spelled_out(), &["coupling.newton.until_coupled=0"]), @r#"
+     × coupling.newton.until_coupled: 0 is not a count of at least 1
+      ╭─[--set:1:33]
+    1 │ coupling.newton.until_coupled = 0
+      ·                                 ┬
+      ·                                 ╰── out of range
+      ╰────
+     help: So many until the coupling criterion is met, then to convergence.
+           without the overrides the scene is sound: look at the `--set`s
+    "#);
+}
+
+#[test]
+fn a_bound_of_interface_data_out_of_range_is_blamed_on_the_override() {
+    assert_snapshot!(message(&spelled_out(), &["coupling.newton.converged_interface_data=2"]), @r#"
+     × coupling.newton.converged_interface_data: 2 is not a number above 0 and below 1
+      ╭─[--set:1:44]
+    1 │ coupling.newton.converged_interface_data = 2
+      ·                                            ┬
+      ·                                            ╰── out of range
+      ╰────
+     help: Until one more Newton iteration changes the call's result by less than this part.
+           without the overrides the scene is sound: look at the `--set`s
+    "#);
+}
+
+#[test]
+fn a_tolerance_out_of_range_is_blamed_on_the_override() {
+    assert_snapshot!(message(&spelled_out(), &["fluid.newton.tolerance.absolute=-1"]), @r#"
+     × fluid.newton.tolerance.absolute: -1 is not a number above zero
+      ╭─[--set:1:35]
+    1 │ fluid.newton.tolerance.absolute = -1
+      ·                                   ─┬
+      ·                                    ╰── out of range
+      ╰────
+     help: In the unit of what is measured: for a residual of forces N, in two dimensions N/m.
+           without the overrides the scene is sound: look at the `--set`s
+    "#);
+}
+
+#[test]
+fn a_filter_out_of_range_is_named_with_its_whole_key() {
+    assert_snapshot!(message(&spelled_out(), &["coupling.acceleration.iqn_imvls.filter.qr3=2"]), @r#"
+     × coupling.acceleration.iqn_imvls.filter.qr3: 2 is not a number above 0 and below 1
+      ╭─[--set:1:46]
+    1 │ coupling.acceleration.iqn_imvls.filter.qr3 = 2
+      ·                                              ┬
+      ·                                              ╰── out of range
+      ╰────
+     help: Drops a column whose part orthogonal to the newer ones is below this part of its own
+           length.
+           without the overrides the scene is sound: look at the `--set`s
+    "#);
+}
+
+#[test]
+fn a_choice_in_a_choice_is_blamed_on_the_override() {
+    assert_snapshot!(message(&spelled_out(), &["coupling.convergence.interface_residual.absolute=-1"]), @r#"
+     × coupling.convergence.interface_residual.absolute: -1 is not a number above zero
+      ╭─[--set:1:52]
+    1 │ coupling.convergence.interface_residual.absolute = -1
+      ·                                                    ─┬
+      ·                                                     ╰── out of range
+      ╰────
+     help: In the unit of what is measured: for a residual of forces N, in two dimensions N/m.
+           without the overrides the scene is sound: look at the `--set`s
+    "#);
+}
+
+#[test]
+fn a_filter_out_of_range_in_the_file_is_named_with_its_whole_key() {
+    assert_snapshot!(message(&spelled_out().replace("qr3 = 0.1", "qr3 = 2"), &[]), @r#"
+     × coupling.acceleration.iqn_imvls.filter.qr3: 2 is not a number above 0 and below 1
+       ╭─[scene.toml:38:18]
+    37 │ initial_relaxation = 0.1
+    38 │ filter = { qr3 = 2 }
+       ·                  ┬
+       ·                  ╰── out of range
+    39 │ 
+       ╰────
+     help: Drops a column whose part orthogonal to the newer ones is below this part of its own
+           length.
+    "#);
+}
+
+#[test]
+fn two_choices_in_one_place_are_both_named() {
+    assert_snapshot!(message(SOUND, &["coupling.newton.fixed.fluid=1", "coupling.newton.until_coupled=1"]), @r#"
+     × coupling.newton cannot be both `fixed` and `until_coupled`
+      ╭─[--set:1:1]
+    1 │ coupling.newton.until_coupled = 1
+      · ─────────────────────────────────
+      ╰────
+     help: leave out this one, or `--set coupling.newton.fixed.fluid = 1`
+    "#);
+}
+
+#[test]
+fn a_count_below_zero_says_what_is_counted() {
+    assert_snapshot!(message(SOUND, &["output.fields_every=-1"]), @r#"
+     × output.fields_every should be a count of zero or more
+      ╭─[--set:1:23]
+    1 │ output.fields_every = -1
+      ·                       ─┬
+      ·                        ╰── not a count of zero or more
+      ╰────
+     help: give a count of zero or more
+           Steps between two files of fields; 0 writes none. Default: 1.
+           without the overrides the scene is sound: look at the `--set`s
+    "#);
+}
+
+#[test]
+fn a_huge_number_keeps_its_exponent() {
+    assert_snapshot!(message(SOUND, &["fluid.density=-1e300"]), @r#"
+     × fluid.density: -1e300 is not a number above zero
+      ╭─[--set:1:17]
+    1 │ fluid.density = -1e300
+      ·                 ───┬──
+      ·                    ╰── out of range
+      ╰────
+     help: Density [kg/m3].
+           without the overrides the scene is sound: look at the `--set`s
+    "#);
+}
+
+#[test]
+fn a_file_that_is_not_text_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("scene.toml");
+    fs::write(&file, [0x74, 0xff, 0xfe]).expect("written");
+    let error = load(&file, &[]).expect_err("not text");
+    let text = format!("{error}\n{}", error.problems()[0].hint());
+    assert_snapshot!(text.replace(&file.display().to_string(), "FILE"), @r#"
+    FILE is not text
+    a scene file is text in UTF-8: name that file, or save it as UTF-8
     "#);
 }

@@ -57,10 +57,9 @@ impl LineFile {
 /// Takes the lock of a file until it is closed, or says that it is taken. The lock of a dead process is gone.
 pub(super) fn lock(file: &File, path: &Path) -> Result<(), OutputError> {
     match file.try_lock() {
-        Ok(()) => Ok(()),
         Err(TryLockError::WouldBlock) => Err(OutputError::InUse { path: path.to_owned() }),
-        // A file system without locks.
-        Err(TryLockError::Error(_)) => Ok(()),
+        // Locked, or a file system without locks.
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
     }
 }
 

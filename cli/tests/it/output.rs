@@ -417,18 +417,29 @@ fn a_new_run_leaves_a_used_folder_alone() {
 }
 
 #[test]
-fn a_run_is_removed_and_nothing_else() {
+fn a_run_is_removed_unless_something_else_lies_beside_it() {
     let dir = tempfile::tempdir().expect("a temporary folder");
     let mut writer = create(dir.path());
     write_steps(&mut writer, 1..=2, 1.0);
     writer.finish(Ending::Completed).expect("written");
-    fs::write(dir.path().join("notes.md"), "x").expect("a file");
+    let names = || -> Vec<_> {
+        let mut names: Vec<_> = fs::read_dir(dir.path())
+            .expect("a folder")
+            .map(|entry| entry.expect("an entry").file_name())
+            .collect();
+        names.sort();
+        names
+    };
+    for foreign in ["notes.md", "fields/view.pvsm"] {
+        fs::write(dir.path().join(foreign), "x").expect("a file");
+        let before = names();
+        let error = remove_run(dir.path()).expect_err("not a run's");
+        assert!(matches!(&error, OutputError::Foreign { path } if path.ends_with(foreign)), "{error}");
+        assert_eq!(names(), before);
+        fs::remove_file(dir.path().join(foreign)).expect("moved away");
+    }
     remove_run(dir.path()).expect("removed");
-    let left: Vec<_> = fs::read_dir(dir.path())
-        .expect("a folder")
-        .map(|entry| entry.expect("an entry").file_name())
-        .collect();
-    assert_eq!(left, ["notes.md"]);
+    assert!(names().is_empty());
 }
 
 #[test]

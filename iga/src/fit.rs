@@ -228,6 +228,17 @@ mod tests {
         }
     }
 
+    /// Piegl and Tiller, example 9.1.
+    #[test]
+    fn parameters_and_knots_are_those_of_the_textbook() {
+        let points = [[0.0, 0.0], [3.0, 4.0], [-1.0, 4.0], [-4.0, 0.0], [-4.0, -3.0]];
+        let (curve, parameters) = through(&points, 3).unwrap();
+        for (found, exact) in parameters.iter().zip([0.0, 5.0, 9.0, 14.0, 17.0]) {
+            assert!((found - exact / 17.0).abs() < 1e-15);
+        }
+        assert!((curve.knots()[0].values()[4] - 28.0 / 51.0).abs() < 1e-15);
+    }
+
     #[test]
     fn ends_are_the_first_and_the_last_point_to_the_last_bit() {
         let points = [[0.1, 0.7], [0.2, 0.9], [0.4, 0.8], [0.7, 0.3], [0.9, 0.35]];

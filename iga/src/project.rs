@@ -46,6 +46,10 @@ pub fn closest_point<const D: usize>(spline: &Spline<D>, point: &[f64; D]) -> Pr
 /// In the others Newton's method, kept inside the piece, starts from every local minimum of a few samples. Where
 /// several points are equally close, the one found first is returned, always the same.
 ///
+/// This is a search, not a proof. It has found the closest point of thousands of arbitrary curves and surfaces with
+/// weights from 0.3 to 3; where weights differ by powers of ten, or the spline folds within 1/64 of an element, a point
+/// a little closer may be missed.
+///
 /// Ends are exact: a point that projects to the end of a parameter gets that end to the last bit, also when round-off
 /// (1e-10 of the parameter's range) says otherwise.
 #[derive(Clone, Debug)]

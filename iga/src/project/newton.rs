@@ -55,11 +55,7 @@ impl<'a, const D: usize> Search<'a, D> {
                 break;
             }
             previous = size;
-            let Some(next) =
-                self.line_search(&at, &step).or_else(|| self.line_search(&at, &model.slope(held)))
-            else {
-                break;
-            };
+            let Some(next) = self.line_search(&at, &step) else { break };
             at = next;
         }
         at
@@ -128,18 +124,9 @@ impl Model {
     fn newton_step(&self, held: [bool; MAX_PARAMETERS]) -> Gradient {
         let ridge = 1e-12 * (0..MAX_PARAMETERS).map(|i| self.metric[i][i]).sum::<f64>();
         let safe = matrix(|i, j| self.metric[i][j] + if i == j { ridge } else { 0.0 });
-        let solve = |hessian| solve_positive(reduced(hessian, held), self.free_slope(held));
+        let slope = std::array::from_fn(|i| if held[i] { 0.0 } else { -self.gradient[i] });
+        let solve = |hessian| solve_positive(reduced(hessian, held), slope);
         solve(&self.hessian).or_else(|| solve(&safe)).unwrap_or_default()
-    }
-
-    /// `-g_i / (x_,i . x_,i)` on the free parameters: every short step along it leads closer.
-    fn slope(&self, held: [bool; MAX_PARAMETERS]) -> Gradient {
-        let slope = self.free_slope(held);
-        std::array::from_fn(|i| if slope[i] == 0.0 { 0.0 } else { slope[i] / self.metric[i][i] })
-    }
-
-    fn free_slope(&self, held: [bool; MAX_PARAMETERS]) -> Gradient {
-        std::array::from_fn(|i| if held[i] { 0.0 } else { -self.gradient[i] })
     }
 }
 

@@ -5,7 +5,7 @@ use crate::basis::BasisValues;
 use crate::knots::Knots;
 use crate::spline::{MAX_PARAMETERS, Spline};
 
-/// A piece is cut where its first derivatives or weights change by more than this share of their size.
+/// A piece is cut where its first derivatives change by more than this share of their size.
 const LARGEST_CHANGE: f64 = 0.5;
 /// An element is cut at most this often along each parameter.
 const MAX_CUTS: usize = 6;
@@ -92,10 +92,9 @@ fn has_middle(knots: &Knots) -> bool {
 /// The parameter along which a one-element spline is farthest from affine, if that is worth a cut.
 fn worst_parameter<const D: usize>(part: &Spline<D>, cuts: [usize; MAX_PARAMETERS]) -> Option<usize> {
     let points = Grid { shape: part.shape(), entries: part.control_points().to_vec() };
-    let weights = Grid { shape: part.shape(), entries: part.weights().iter().map(|w| [*w]).collect() };
     let change = |j: usize| {
         let derivatives = (0..part.parameters()).map(|i| points.differences(i));
-        derivatives.map(|first| first.relative_change(j)).fold(weights.relative_change(j), f64::max)
+        derivatives.map(|first| first.relative_change(j)).fold(0.0, f64::max)
     };
     let changes: Vec<f64> = (0..part.parameters()).map(change).collect();
     let can_cut = |i: usize| cuts[i] < MAX_CUTS && has_middle(&part.knots()[i]);

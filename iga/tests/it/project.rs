@@ -114,6 +114,16 @@ fn ends_are_exact_to_the_last_bit() {
     }
 }
 
+/// Only ends of the spline hold points that miss them by little; a knot inside is a place like any other.
+#[test]
+fn next_to_an_inner_knot_no_digit_is_lost() {
+    let line = build::line([0.0, 0.0], [1.0, 0.0], 2, 2).unwrap();
+    for offset in [-3e-11, -1e-13, 0.0, 1e-13, 3e-11] {
+        let xi = closest_point(&line, &[0.5 + offset, 0.0]).xi[0];
+        assert!((xi - 0.5 - offset).abs() < 2e-16, "{offset}: {}", xi - 0.5);
+    }
+}
+
 #[test]
 fn a_kink_is_the_closest_point_of_what_lies_before_it() {
     let knots = Knots::new(2, vec![0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.0]).unwrap();

@@ -73,6 +73,17 @@ proptest! {
 }
 
 #[test]
+fn points_of_the_unit_cube_become_points_of_the_element_exact_at_its_ends() {
+    let knots = Knots::new(1, vec![0.1, 0.1, 0.3, 0.7, 0.7]).unwrap();
+    let curve = Spline::new(vec![knots], vec![[0.0], [1.0], [2.0]]).unwrap();
+    for element in curve.elements() {
+        let [start, end] = element.ranges()[0];
+        assert_eq!((element.at([0.0]), element.at([1.0])), ([start], [end]));
+        assert!((element.at([0.25])[0] - (start + 0.25 * (end - start))).abs() < 1e-16);
+    }
+}
+
+#[test]
 fn elements_and_control_points_run_along_the_first_parameter_first() {
     let patch = build::rectangle([0.0, 0.0], [3.0, 2.0], [1, 1], [3, 2]).unwrap();
     assert_eq!(patch.element(1).ranges(), [[1.0 / 3.0, 2.0 / 3.0], [0.0, 0.5]]);

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! with the first Piola-Kirchhoff stress P = F S (Total Lagrangian). The functions know neither the mesh nor the
-//! time integration; nodal fields are slices with one `[f64; D]` a node, results are *added* to the slices given.
+//! time integration; nodal fields are slices with one `[f64; D]` a node, results are *added* to the slices given. A
+//! field of another length is a panic.
 
 use crate::material::Material;
 use crate::tensor::{self, Tensor};
@@ -67,6 +68,11 @@ impl<'a, const D: usize> Element<'a, D> {
     #[must_use]
     pub fn nodes(&self) -> usize {
         self.values.len() / self.weights.len()
+    }
+
+    /// Refuses a nodal field that does not belong to the element.
+    fn assert_fits<T>(&self, field: &[T]) {
+        assert_eq!(field.len(), self.nodes(), "a nodal field has one entry a node");
     }
 
     fn points(self) -> impl Iterator<Item = Point<'a, D>> {
@@ -139,6 +145,8 @@ pub fn add_internal_force<const D: usize>(
     displacement: &[[f64; D]],
     force: &mut [[f64; D]],
 ) {
+    element.assert_fits(displacement);
+    element.assert_fits(force);
     for point in element.points() {
         let stress = material.stress(&point.gradient(displacement));
         point.add_stress(&stress, force);
@@ -163,6 +171,8 @@ pub fn add_internal_force_and_tangent<const D: usize>(
     tangent: &mut [f64],
     blocks: &mut Blocks<D>,
 ) {
+    element.assert_fits(displacement);
+    element.assert_fits(force);
     blocks.blocks.fill([[0.0; D]; D]);
     for point in element.points() {
         let at = material.response(&point.gradient(displacement));
@@ -197,6 +207,8 @@ pub fn add_inertia<const D: usize>(
     acceleration: &[[f64; D]],
     force: &mut [[f64; D]],
 ) {
+    element.assert_fits(acceleration);
+    element.assert_fits(force);
     for point in element.points() {
         let a = point.value(acceleration);
         point.add_value(a.map(|a| point.weight * density * a), force);
@@ -224,6 +236,7 @@ pub fn add_body_force<const D: usize>(
     body_force: impl Iterator<Item = [f64; D]>,
     force: &mut [[f64; D]],
 ) {
+    element.assert_fits(force);
     for (point, b) in element.points().zip(body_force) {
         point.add_value(b.map(|b| point.weight * b), force);
     }
@@ -232,6 +245,7 @@ pub fn add_body_force<const D: usize>(
 /// Share of each node in the volume: `volume_a += (N_a, 1)` `[m^D]`. A constant body force b loads node a with
 /// b times its share.
 pub fn add_volume<const D: usize>(element: Element<D>, volume: &mut [f64]) {
+    element.assert_fits(volume);
     for point in element.points() {
         for (v, n) in volume.iter_mut().zip(point.values) {
             *v += point.weight * n;
@@ -246,12 +260,14 @@ pub fn strain_energy<const D: usize>(
     material: &Material,
     displacement: &[[f64; D]],
 ) -> f64 {
+    element.assert_fits(displacement);
     element.points().map(|point| point.weight * material.energy(&point.gradient(displacement))).sum()
 }
 
 /// Kinetic energy (rho v, v)/2 `[J, in 2D J/m]`.
 #[must_use]
 pub fn kinetic_energy<const D: usize>(element: Element<D>, density: f64, velocity: &[[f64; D]]) -> f64 {
+    element.assert_fits(velocity);
     element
         .points()
         .map(|point| {

@@ -90,9 +90,11 @@ impl<const D: usize> StructureSolver<D> {
             } else {
                 (high, work_high) = (s, work);
             }
-            // Regula falsi, kept off the ends: a stiffening structure overshoots by orders of magnitude.
+            // Regula falsi, kept off the ends: a stiffening structure overshoots by orders of magnitude. Where G is not
+            // a number, `max` takes the shorter end.
             let root = low - work_low * (high - low) / (work_high - work_low);
-            s = root.clamp(low + 0.1 * (high - low), high - 0.1 * (high - low));
+            let margin = 0.1 * (high - low);
+            s = root.max(low + margin).min(high - margin);
         }
     }
 

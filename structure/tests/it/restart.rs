@@ -85,6 +85,23 @@ fn a_step_given_up_and_done_again_has_the_same_bits() {
 }
 
 #[test]
+fn a_step_begun_again_starts_from_the_committed_state() {
+    let mut solver = shaken(dynamic(0.5));
+    (0..2).for_each(|number| step(&mut solver, number));
+    let begun = |solver: &mut StructureSolver<2>| {
+        solver.begin_step(0.1, 0.07);
+        bits(solver.trial())
+    };
+    let once = begun(&mut solver);
+    let elsewhere = vec![0.01; solver.values().len()];
+    solver.guess(&elsewhere);
+    solver.impose(&vec![1.0; solver.interface_points().len() * 2]);
+    assert_ne!(bits(solver.trial()), once);
+    assert_eq!(begun(&mut solver), once);
+    assert_eq!(solver.values(), solver.state().displacement);
+}
+
+#[test]
 fn a_run_repeats_itself_to_the_bit() {
     let run = || {
         let mut solver = shaken(dynamic(0.8));

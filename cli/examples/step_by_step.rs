@@ -34,10 +34,10 @@ impl Observer for Lines {
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/elastic-bottom");
     let overrides: Vec<String> = std::env::args().skip(1).collect();
-    let scene = scene::load(&folder, &overrides)?.scene;
-    let mut run = build::run(&scene)?;
+    let tank = scene::load(&folder, &overrides)?;
+    let mut run = build::run(&tank)?;
     for _ in 0..5 {
-        run.step(scene.time.step.get(), &mut Lines)?;
+        run.step(tank.scene.time.step.get(), &mut Lines)?;
         if let Some(structure) = run.second().field() {
             println!("    middle of the bottom: {:.6e} m", structure.displacement_at(&[0.5, 1.0])[1]);
         }

@@ -8,17 +8,15 @@ mod structure;
 use partita_coupling::{Block, March, Quantity, SetupError, Transfer};
 use partita_fluid::{FluidError, FluidSolver};
 use partita_iga::transfer::TransferError;
-use partita_mesh::MeshError;
 use partita_numerics::newton::{self, Bound, Check};
 use partita_structure::{MaterialError, StructureError, StructureSolver};
 use thiserror::Error;
 
-pub use fluid::mesh as fluid_mesh;
 pub(crate) use fluid::nearest_node;
-pub use structure::patch as structure_patch;
+pub(crate) use structure::side;
 
 use crate::adapt::{Adapter, Slot};
-use crate::scene::schema::{self, Scene};
+use crate::scene::{Resolved, schema};
 
 /// A run of a scene: fluid first, structure second, either of them possibly absent.
 pub type Run = March<Slot<FluidSolver<2>>, Slot<StructureSolver<2>>>;
@@ -31,15 +29,9 @@ const INTERFACE: &str = "interface";
 /// A scene that reads well but cannot be built.
 #[derive(Debug, Error)]
 pub enum BuildError {
-    /// The fluid's mesh.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
     /// The fluid.
     #[error(transparent)]
     Fluid(#[from] FluidError),
-    /// The structure's geometry.
-    #[error(transparent)]
-    Geometry(#[from] partita_iga::build::BuildError),
     /// The structure's material.
     #[error(transparent)]
     Material(#[from] MaterialError),
@@ -54,13 +46,15 @@ pub enum BuildError {
     Coupling(#[from] SetupError),
 }
 
-/// The run of `scene`, at its initial state.
+/// The run of a scene, at its initial state.
 ///
 /// # Errors
 /// When the parts of the scene do not fit together.
-pub fn run(scene: &Scene) -> Result<Run, BuildError> {
-    let fluid = scene.fluid.as_ref().map(fluid::solver).transpose()?;
-    let structure = scene.structure.as_ref().map(structure::solver).transpose()?;
+pub fn run(Resolved { scene, shapes, .. }: &Resolved) -> Result<Run, BuildError> {
+    let fluid = scene.fluid.as_ref().zip(shapes.fluid.clone());
+    let fluid = fluid.map(|(scene, mesh)| fluid::solver(scene, mesh)).transpose()?;
+    let structure = scene.structure.as_ref().zip(shapes.structure.clone());
+    let structure = structure.map(|(scene, patch)| structure::solver(scene, patch)).transpose()?;
     let (settings, transfers) = match (&scene.coupling, &fluid, &structure) {
         (Some(coupling), Some(fluid), Some(structure)) => {
             let tolerance = coupling.projection_tolerance.get();

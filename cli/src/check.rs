@@ -5,22 +5,22 @@ use std::fmt::Write;
 
 use partita_fluid::FluidSolver;
 use partita_iga::Spline;
-use partita_mesh::{Mesh, quality};
+use partita_mesh::{Mesh, Place, quality, simplex};
 use partita_structure::StructureSolver;
 
 use crate::build::{self, BuildError};
-use crate::scene::schema::{
-    Condition, Count, Coupling, Degree, Fluid, Geometry, Scene, Side, Structure, plain,
-};
-use crate::scene::words;
+use crate::memory;
+use crate::scene::schema::{Condition, Coupling, Fluid, Side, Structure, plain};
+use crate::scene::{Resolved, words};
 
 /// Builds the scene and describes it: title, meshes with their boundary groups, splines, interface, choices. The last
 /// line is `scene is sound`.
 ///
 /// # Errors
 /// When the parts of the scene do not fit together.
-pub fn describe(scene: &Scene) -> Result<String, BuildError> {
-    let run = build::run(scene)?;
+pub fn describe(resolved: &Resolved) -> Result<String, BuildError> {
+    let run = build::run(resolved)?;
+    let scene = &resolved.scene;
     let (fluid, structure) = (run.first().field(), run.second().field());
     let mut page = Page { text: format!("{}\n", scene.title) };
     let (steps, step) = (scene.time.steps.get(), scene.time.step);
@@ -36,8 +36,18 @@ pub fn describe(scene: &Scene) -> Result<String, BuildError> {
         page.line("interface", format!("{nodes} fluid nodes on {points} control points that move"));
         page.coupling(coupling);
     }
+    page.line("memory", format!("about {}", memory::words(memory_of(fluid, structure))));
     page.text.push_str("scene is sound\n");
     Ok(page.text)
+}
+
+fn memory_of(fluid: Option<&FluidSolver<2>>, structure: Option<&StructureSolver<2>>) -> f64 {
+    let of_fluid = fluid.map_or(0, |fluid| fluid.parts().iter().map(|part| part.dofs.len()).sum());
+    let of_structure =
+        structure.map_or(0, |structure| structure.parts().iter().map(|part| part.dofs.len()).sum());
+    let degrees =
+        structure.map_or([0; 2], |structure| [0, 1].map(|c| structure.spline().knots()[c].degree()));
+    memory::estimate(of_fluid, of_structure, degrees)
 }
 
 /// Lines `name  text`, the texts below one another.
@@ -60,8 +70,10 @@ impl Page {
         self.line(
             "",
             format!(
-                "shape quality {:.3} on average, {:.3} at worst (1 is equilateral)",
-                quality.mean_quality, quality.worst_quality
+                "shape quality {:.3} on average, {:.3} at worst, at {} (1 is equilateral)",
+                quality.mean_quality,
+                quality.worst_quality,
+                Place::from(centroid(mesh, quality.worst_cell))
             ),
         );
         self.line("", format!("body force {} m/s2 (per mass)", words(&scene.body_force)));
@@ -80,9 +92,8 @@ impl Page {
     fn structure(&mut self, scene: &Structure, structure: &StructureSolver<2>) {
         let spline = structure.spline();
         let unknowns: usize = structure.parts().iter().map(|part| part.dofs.len()).sum();
-        let Geometry::Rectangle(patch) = &scene.geometry;
-        let [along, across] = patch.elements.map(Count::get);
-        let [degree, other] = patch.degree.map(Degree::get);
+        let [along, across] = [0, 1].map(|direction| spline.knots()[direction].element_count());
+        let [degree, other] = [0, 1].map(|direction| spline.knots()[direction].degree());
         self.line(
             "structure",
             format!(
@@ -106,6 +117,10 @@ impl Page {
         );
         self.line("", format!("Newton iterations a call: {}", words(&coupling.newton)));
     }
+}
+
+fn centroid(mesh: &Mesh<2>, cell: usize) -> [f64; 2] {
+    simplex::centroid(&simplex::vertices(mesh.points(), mesh.cells().cell(cell))[..3])
 }
 
 fn names(sides: &[Side]) -> String {

@@ -6,6 +6,7 @@ pub mod check;
 pub mod checkpoint;
 mod draw;
 pub mod expression;
+pub mod memory;
 mod nearest;
 pub mod output;
 mod probe;

@@ -37,18 +37,17 @@ fn run(arguments: &Run, clock: Clock) -> Result<ExitCode, Failure> {
     let resolved = scene::load(&arguments.scene.path, &arguments.scene.overrides)?;
     let dir = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(&resolved.name));
     if arguments.force {
-        build::run(&resolved.scene)?;
+        build::run(&resolved)?;
         output::remove_run(&dir)?;
     }
-    let text = resolved.to_toml();
-    let session = Session::start(&resolved.scene, &text, &dir, options(&arguments.manner), clock)
+    let session = Session::start(&resolved, &dir, options(&arguments.manner), clock)
         .map_err(Failure::before_the_first_step)?;
     finish(session, &dir, &arguments.manner)
 }
 
 fn check(arguments: &Check) -> Result<ExitCode, Failure> {
     let resolved = scene::load(&arguments.scene.path, &arguments.scene.overrides)?;
-    print(&check::describe(&resolved.scene)?)?;
+    print(&check::describe(&resolved)?)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -57,7 +56,7 @@ fn resume(arguments: &Resume, clock: Clock) -> Result<ExitCode, Failure> {
         return Err(Failure::no_run(&arguments.dir));
     }
     let resolved = scene::load(&arguments.dir, &[])?;
-    let session = Session::resume(&resolved.scene, &arguments.dir, options(&arguments.manner), clock)?;
+    let session = Session::resume(&resolved, &arguments.dir, options(&arguments.manner), clock)?;
     finish(session, &arguments.dir, &arguments.manner)
 }
 

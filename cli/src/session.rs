@@ -16,8 +16,8 @@ use crate::draw::Drawing;
 use crate::output::{Clock, Ending, OutputError, RunWriter, Summary};
 use crate::probe::Probes;
 use crate::progress::Progress;
+use crate::scene::Resolved;
 use crate::scene::schema::{Count, Output, Scene};
-use crate::scene::to_toml;
 
 /// How a run is to be carried out; nothing here changes its numbers.
 #[derive(Debug, Clone, Copy, Default)]
@@ -65,6 +65,7 @@ pub struct RunState {
 /// A run in progress.
 pub struct Session<'a> {
     run: Run,
+    resolved: &'a Resolved,
     scene: &'a Scene,
     probes: Probes,
     drawing: Drawing,
@@ -75,41 +76,43 @@ pub struct Session<'a> {
 }
 
 impl<'a> Session<'a> {
-    /// Builds the run of `scene` and starts its folder `dir`, which must be new or empty; `clock` has run since the
+    /// Builds the run of the scene and starts its folder `dir`, which must be new or empty; `clock` has run since the
     /// program started. Nothing is written when the scene cannot be built.
     ///
     /// # Errors
     /// When the scene cannot be built or the folder not be written.
     pub fn start(
-        scene: &'a Scene,
-        text: &str,
+        resolved: &'a Resolved,
         dir: &Path,
         options: Options<'a>,
         clock: Clock,
     ) -> Result<Self, RunError> {
-        let run = build::run(scene)?;
+        let run = build::run(resolved)?;
+        let scene = &resolved.scene;
         let probes = Probes::new(&scene.output.probes, &run);
         let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
-        let mut writer = RunWriter::create(dir, text, probes.columns(), clock)?;
+        let mut writer = RunWriter::create(dir, &resolved.to_toml(), probes.columns(), clock)?;
+        writer.keep(&resolved.shapes.inputs)?;
         if scene.output.fields_every > 0 {
             drawing.write(&run, &mut writer, 0, 0.0)?;
         }
-        Ok(Self { run, scene, probes, drawing, writer, options, note: None })
+        Ok(Self { run, resolved, scene, probes, drawing, writer, options, note: None })
     }
 
-    /// Takes up the run in the folder `dir`, whose scene is `scene`, at its checkpoint.
+    /// Takes up the run in the folder `dir`, which holds this scene, at its checkpoint.
     ///
     /// # Errors
     /// When there is no usable checkpoint, or the folder does not fit it.
     pub fn resume(
-        scene: &'a Scene,
+        resolved: &'a Resolved,
         dir: &Path,
         options: Options<'a>,
         clock: Clock,
     ) -> Result<Self, RunError> {
         let checkpoint = checkpoint::load::<RunState>(dir)?;
-        let mut run = build::run(scene)?;
-        checkpoint.state.restore(&mut run, scene)?;
+        let mut run = build::run(resolved)?;
+        checkpoint.state.restore(&mut run, resolved)?;
+        let scene = &resolved.scene;
         let probes = Probes::new(&scene.output.probes, &run);
         let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
         let writer = RunWriter::resume(dir, &checkpoint.stamp, probes.columns(), clock)?;
@@ -117,7 +120,7 @@ impl<'a> Session<'a> {
         let note = checkpoint.latest_unusable.map(|error| {
             format!("the latest checkpoint is not usable, the run goes on after step {step}\n{error}")
         });
-        Ok(Self { run, scene, probes, drawing, writer, options, note })
+        Ok(Self { run, resolved, scene, probes, drawing, writer, options, note })
     }
 
     /// Steps to the end of the scene, or to where the options say, and writes the summary.
@@ -188,13 +191,13 @@ impl<'a> Session<'a> {
     fn save(&mut self) -> Result<(), RunError> {
         let clock = self.run.clock();
         let stamp = self.writer.stamp(clock.steps, clock.time)?;
-        Ok(checkpoint::save(self.writer.dir(), &stamp, &RunState::of(&self.run, self.scene))?)
+        Ok(checkpoint::save(self.writer.dir(), &stamp, &RunState::of(&self.run, self.resolved))?)
     }
 }
 
 impl RunState {
     /// What `run` of `scene` remembers now.
-    fn of(run: &Run, scene: &Scene) -> Self {
+    fn of(run: &Run, scene: &Resolved) -> Self {
         Self {
             scene: decisive(scene),
             march: run.state(),
@@ -204,7 +207,7 @@ impl RunState {
     }
 
     /// Puts `run` of `scene` where this state was taken.
-    fn restore(&self, run: &mut Run, scene: &Scene) -> Result<(), RunError> {
+    fn restore(&self, run: &mut Run, scene: &Resolved) -> Result<(), RunError> {
         let now = decisive(scene);
         if let Some((then, now)) = self.scene.lines().zip(now.lines()).find(|(then, now)| then != now) {
             return Err(RunError::Misfit(format!("`{}` is now `{}`", then.trim(), now.trim())));
@@ -217,12 +220,17 @@ impl RunState {
     }
 }
 
-/// The scene without what may change between two sessions of a run: how far it goes, and what is written.
-fn decisive(scene: &Scene) -> String {
-    let mut scene = scene.clone();
-    scene.time.steps = Count::literal(1);
-    scene.output = Output::default();
-    to_toml(&scene)
+/// The scene without what may change between two sessions of a run, how far it goes and what is written, and a
+/// checksum of each file that it is built from.
+fn decisive(resolved: &Resolved) -> String {
+    let mut resolved = resolved.clone();
+    resolved.scene.time.steps = Count::literal(1);
+    resolved.scene.output = Output::default();
+    let mut text = resolved.to_toml();
+    for input in &resolved.shapes.inputs {
+        text += &format!("# {} has checksum {:08x}\n", input.name, crc32fast::hash(&input.bytes));
+    }
+    text
 }
 
 /// Passes what happens inside a step on to files and terminal; keeps the first refusal for after the step.

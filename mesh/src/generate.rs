@@ -4,7 +4,7 @@ mod cuboid;
 mod rectangle;
 
 pub use cuboid::{CuboidMesh, cuboid};
-pub use rectangle::{Diagonal, RectangleMesh, rectangle};
+pub use rectangle::{Diagonal, RECTANGLE_SIDES, RectangleMesh, rectangle};
 
 use crate::error::MeshError;
 

@@ -4,38 +4,17 @@ use partita_fluid::FluidSolver;
 use partita_fluid::model::{BodyForce, BoundaryCondition, FluidModel, InitialState};
 use partita_fluid::settings::{FluidSettings, PressurePin, Tangent, TimeScheme};
 use partita_mesh::Mesh;
-use partita_mesh::generate::{self, Diagonal, RectangleMesh};
 use partita_mesh::motion::{MotionLaw, MotionMode, MotionSettings};
 use partita_numerics::time::BdfOrder;
 
 use super::{BuildError, newton};
 use crate::scene::schema;
 
-/// The mesh of a scene's fluid.
-///
-/// # Errors
-/// When the mesh cannot be made.
-pub fn mesh(fluid: &schema::Fluid) -> Result<Mesh<2>, BuildError> {
-    let schema::FluidMesh::Rectangle(rectangle) = &fluid.mesh;
-    Ok(generate::rectangle(&RectangleMesh {
-        origin: rectangle.origin.map(schema::Real::get),
-        size: rectangle.size.map(schema::Positive::get),
-        divisions: rectangle.divisions.map(schema::Count::get),
-        pattern: match rectangle.diagonals {
-            schema::Diagonals::Crossed => Diagonal::Crossed,
-            schema::Diagonals::Right => Diagonal::Right,
-            schema::Diagonals::Left => Diagonal::Left,
-            schema::Diagonals::Alternating => Diagonal::Alternating,
-        },
-    })?)
-}
-
-/// The solver of a scene's fluid, at its initial state.
+/// The solver of a scene's fluid on `mesh`, at its initial state.
 ///
 /// # Errors
 /// When mesh, conditions and settings do not fit together.
-pub(super) fn solver(fluid: &schema::Fluid) -> Result<FluidSolver<2>, BuildError> {
-    let mesh = mesh(fluid)?;
+pub(super) fn solver(fluid: &schema::Fluid, mesh: Mesh<2>) -> Result<FluidSolver<2>, BuildError> {
     let settings = settings(fluid, &mesh);
     Ok(FluidSolver::new(mesh, model(fluid), settings)?)
 }

@@ -1,6 +1,6 @@
 //! The scene's structure in the words of the structure crate.
 
-use partita_iga::{Side, Spline, build};
+use partita_iga::{Side, Spline};
 use partita_structure::{
     BodyForce, Law, Material, Plane, Rayleigh, Space, StructureModel, StructureSettings, StructureSolver,
     TimeScheme,
@@ -9,25 +9,14 @@ use partita_structure::{
 use super::{BuildError, newton};
 use crate::scene::schema;
 
-/// The patch of a scene's structure.
-///
-/// # Errors
-/// When the patch cannot be made.
-pub fn patch(structure: &schema::Structure) -> Result<Spline<2>, BuildError> {
-    let schema::Geometry::Rectangle(rectangle) = &structure.geometry;
-    Ok(build::rectangle(
-        rectangle.origin.map(schema::Real::get),
-        rectangle.size.map(schema::Positive::get),
-        rectangle.degree.map(schema::Degree::get),
-        rectangle.elements.map(schema::Count::get),
-    )?)
-}
-
-/// The solver of a scene's structure, at rest.
+/// The solver of a scene's structure on `patch`, at rest.
 ///
 /// # Errors
 /// When geometry, material and settings do not fit together.
-pub(super) fn solver(structure: &schema::Structure) -> Result<StructureSolver<2>, BuildError> {
+pub(super) fn solver(
+    structure: &schema::Structure,
+    patch: Spline<2>,
+) -> Result<StructureSolver<2>, BuildError> {
     let model = StructureModel {
         density: structure.density.get(),
         material: material(&structure.material)?,
@@ -48,7 +37,7 @@ pub(super) fn solver(structure: &schema::Structure) -> Result<StructureSolver<2>
             .map(|damping| Rayleigh { mass: damping.mass.get(), stiffness: damping.stiffness.get() }),
         line_search: None,
     };
-    Ok(StructureSolver::new(Space::Patch(patch(structure)?), model, settings)?)
+    Ok(StructureSolver::new(Space::Patch(patch), model, settings)?)
 }
 
 fn material(material: &schema::Material) -> Result<Material, BuildError> {
@@ -72,7 +61,8 @@ fn body_force(formula: &schema::VectorFormula) -> BodyForce<2> {
     BodyForce::in_time(move |time| field(&[0.0; 2], time))
 }
 
-fn side(side: schema::Side) -> Side {
+/// A side by the name a scene has for it.
+pub(crate) fn side(side: schema::Side) -> Side {
     match side {
         schema::Side::Left => Side::LEFT,
         schema::Side::Right => Side::RIGHT,

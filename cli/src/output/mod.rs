@@ -3,6 +3,7 @@
 //! | file | content |
 //! |---|---|
 //! | `scene.toml` | the scene with every default written out; it runs again as it is |
+//! | `input/` | the files that the scene names, as they were read |
 //! | `run.jsonl` | a line for each coupling iteration and one for each step |
 //! | `iterations.csv`, `steps.csv` | the same, as tables |
 //! | `probes.csv` | values that the scene asks for, a row a step |
@@ -17,6 +18,7 @@
 mod csv;
 mod error;
 pub mod fields;
+mod input;
 mod lines;
 mod record;
 mod summary;
@@ -30,6 +32,7 @@ use partita_coupling::Record;
 use partita_coupling::record::{IterationRecord, StepRecord};
 
 use crate::checkpoint::{self, Stamp};
+use crate::scene::{INPUT_FOLDER, Input};
 use csv::CsvFile;
 use fields::{FieldFiles, Series, Snapshot, remove_if_there};
 use lines::LineFile;
@@ -108,6 +111,14 @@ impl RunWriter {
             totals: Totals::default(),
             clock,
         })
+    }
+
+    /// Writes copies of the files that the scene names.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub(crate) fn keep(&mut self, inputs: &[Input]) -> Result<(), OutputError> {
+        self.timed(|run| input::keep(&run.dir, inputs))
     }
 
     /// Takes up the folder `dir` at the step of a checkpoint: what was written after it is dropped.
@@ -271,14 +282,16 @@ pub fn remove_run(dir: &Path) -> Result<(), OutputError> {
     let ours: Vec<&str> = files.chain(collections.iter().map(String::as_str)).collect();
     let known = |name: &str| {
         let name = name.strip_suffix(".part").unwrap_or(name);
-        name == RECORDS || name == fields::FOLDER || ours.contains(&name)
+        name == RECORDS || name == fields::FOLDER || name == INPUT_FOLDER || ours.contains(&name)
     };
     refuse_foreign(dir, known)?;
     refuse_foreign(&dir.join(fields::FOLDER), fields::is_ours)?;
+    refuse_foreign(&dir.join(INPUT_FOLDER), input::is_ours)?;
     for name in ours {
         remove_if_there(&dir.join(name))?;
     }
     fields::remove_all(dir)?;
+    input::remove_all(dir)?;
     // Last: while it is there, what is left is known to be a run's.
     remove_if_there(&records)
 }

@@ -10,11 +10,14 @@ mod overrides;
 pub mod reference;
 mod resolve;
 pub mod schema;
+mod shapes;
 mod translate;
 mod validate;
 mod write;
 
 pub use diagnose::{Problem, SceneError};
-pub use resolve::{Resolved, SCENE_FILE, load, parse};
+pub use resolve::{Resolved, SCENE_FILE, load, parse, read_in};
+pub use shapes::Shapes;
+pub(crate) use shapes::{INPUT_FILES, INPUT_FOLDER, Input};
 pub use write::to_toml;
 pub(crate) use write::words;

@@ -13,15 +13,18 @@ use super::document::{Document, Sources};
 use super::finding::Finding;
 use super::overrides::Override;
 use super::schema::Scene;
+use super::shapes::{self, Shapes};
 use super::translate::translate;
-use super::validate::validate;
+use super::validate::{Check, validate, validate_shapes};
 use super::write;
 
-/// A scene that has passed every check that needs no mesh.
-#[derive(Debug, Clone, PartialEq)]
+/// A scene that has passed every check, with its shapes.
+#[derive(Debug, Clone)]
 pub struct Resolved {
     /// What was asked for, defaults included.
     pub scene: Scene,
+    /// The fluid's mesh and the structure's patch.
+    pub shapes: Shapes,
     /// What the scene is called: its folder, or its file without the ending.
     pub name: String,
     /// The file it was read from.
@@ -29,18 +32,21 @@ pub struct Resolved {
 }
 
 impl Resolved {
-    /// The scene as TOML with every default and override written out: it runs again as it is.
+    /// The scene as TOML with every default and override written out, naming the copies of its files that a run
+    /// keeps: in the folder of the run it runs again as it is.
     #[must_use]
     pub fn to_toml(&self) -> String {
-        write::to_toml(&self.scene)
+        let mut scene = self.scene.clone();
+        shapes::name_copies(&mut scene);
+        write::to_toml(&scene)
     }
 }
 
 /// The file name that stands for its folder.
 pub const SCENE_FILE: &str = "scene.toml";
 
-/// Reads the scene in a file, or in the folder that holds a `scene.toml`, and applies the overrides
-/// `key.path=value` in their order.
+/// Reads the scene in a file, or in the folder that holds a `scene.toml`, and the files it names, and applies the
+/// overrides `key.path=value` in their order.
 ///
 /// # Errors
 ///
@@ -48,35 +54,65 @@ pub const SCENE_FILE: &str = "scene.toml";
 pub fn load(path: &Path, overrides: &[String]) -> Result<Resolved, SceneError> {
     let file = if path.is_dir() { path.join(SCENE_FILE) } else { path.to_owned() };
     let text = fs::read_to_string(&file).map_err(|error| unreadable(path, &file, &error))?;
-    let scene = parse(&file.display().to_string(), &text, overrides)?;
-    Ok(Resolved { scene, name: name_of(&file), file })
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let resolved = read_in(folder, &file.display().to_string(), &text, overrides)?;
+    Ok(Resolved { name: name_of(&file), file, ..resolved })
 }
 
-/// Reads the scene in a text; `name` is what messages call it.
+/// Reads the scene in a text, as if it stood in a file of this folder; `name` is what messages and the scene are called.
+///
+/// # Errors
+///
+/// [`SceneError`] with every place that is wrong and how to mend it.
+pub fn read_in(folder: &Path, name: &str, text: &str, overrides: &[String]) -> Result<Resolved, SceneError> {
+    let (scene, shapes) = resolve(name, text, overrides, |sources| {
+        let (scene, document) = check(sources)?;
+        let mut findings = Check::new(&document);
+        let shapes = Shapes::make(&scene, folder, &mut findings);
+        validate_shapes(&mut findings, &scene, &shapes);
+        findings.done((scene, shapes))
+    })?;
+    Ok(Resolved { scene, shapes, name: name.to_owned(), file: folder.join(name) })
+}
+
+/// Reads the scene in a text; `name` is what messages call it. Files that it names are not looked at.
 ///
 /// # Errors
 ///
 /// [`SceneError`] with every place that is wrong and how to mend it.
 pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, SceneError> {
+    resolve(name, text, overrides, |sources| Ok(check(sources)?.0))
+}
+
+/// Reads text and overrides with `read`; where it finds fault, tells whether the text alone is sound.
+fn resolve<T>(
+    name: &str,
+    text: &str,
+    overrides: &[String],
+    read: impl Fn(&Sources) -> Result<T, Vec<Finding>>,
+) -> Result<T, SceneError> {
     let overrides = overrides.iter().map(|given| read_override(given)).collect::<Result<Vec<_>, _>>()?;
     if let Some(error) = rivals(&overrides) {
         return Err(error);
     }
     let sources = Sources::new(name, text, &overrides);
-    check(&sources).map_err(|mut findings| {
+    read(&sources).map_err(|mut findings| {
         let alone = Sources::new(name, text, &[]);
-        if !overrides.is_empty() && check(&alone).is_ok() {
+        if !overrides.is_empty() && read(&alone).is_ok() {
             findings.iter_mut().for_each(Finding::blame_overrides);
         }
         SceneError::new(findings, &sources)
     })
 }
 
-fn check(sources: &Sources) -> Result<Scene, Vec<Finding>> {
+/// Everything that can be checked without another file.
+fn check(sources: &Sources) -> Result<(Scene, Document<'_>), Vec<Finding>> {
     let document = sources.merge().map_err(|finding| vec![finding])?;
     let scene = read(&document, sources).map_err(|finding| vec![finding])?;
-    let findings = validate(&scene, &document);
-    if findings.is_empty() { Ok(scene) } else { Err(findings) }
+    let mut findings = Check::new(&document);
+    validate(&mut findings, &scene);
+    findings.done(())?;
+    Ok((scene, document))
 }
 
 fn read_override(given: &str) -> Result<Override, SceneError> {

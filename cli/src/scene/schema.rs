@@ -4,6 +4,7 @@
 //! file in an output folder is complete and runs again as it is.
 
 mod coupling;
+mod file;
 mod fluid;
 mod formula;
 mod limit;
@@ -18,9 +19,10 @@ use serde::{Deserialize, Serialize};
 pub use coupling::{
     Acceleration, Convergence, Coupling, Filter, NewtonPolicy, OnLimit, Predictor, QuasiNewton,
 };
+pub use file::FileName;
 pub use fluid::{
-    Condition, Diagonals, Fluid, FluidMesh, FluidTimeScheme, Initial, MeshMotion, MotionLaw, MotionMode,
-    Outflow, PressurePin, RectangleMesh, Tangent,
+    Condition, Diagonals, Fluid, FluidMesh, FluidTimeScheme, GmshMesh, Initial, MeshMotion, MotionLaw,
+    MotionMode, Outflow, PressurePin, RectangleMesh, Tangent,
 };
 pub use formula::{Formula, VectorFormula, VectorFunction};
 pub use limit::Limit;

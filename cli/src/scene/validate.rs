@@ -2,6 +2,9 @@
 
 mod fields;
 mod fluid;
+mod groups;
+mod interface;
+mod mesh;
 mod structure;
 
 use std::ops::Range;
@@ -9,37 +12,56 @@ use std::ops::Range;
 use super::document::Document;
 use super::finding::Finding;
 use super::schema::Scene;
+use super::shapes::Shapes;
 
-/// Everything that does not fit, in the order in which it stands in the scene.
-pub(super) fn validate(scene: &Scene, document: &Document<'_>) -> Vec<Finding> {
-    let mut check = Check { document, findings: Vec::new() };
-    fields::check(&mut check, scene);
+/// What does not fit, as far as the text of the scene shows it.
+pub(super) fn validate(check: &mut Check<'_>, scene: &Scene) {
+    fields::check(check, scene);
     if let Some(fluid) = &scene.fluid {
-        fluid::check(&mut check, fluid, scene.structure.is_some());
+        fluid::check(check, scene, fluid, scene.structure.is_some());
     }
     if let Some(structure) = &scene.structure {
-        structure::check(&mut check, structure, scene.fluid.is_some());
+        structure::check(check, structure, scene.fluid.is_some());
     }
-    check.findings.sort_by_key(|finding| finding.marks.first().map(|(place, _)| place.start));
-    check.findings
+}
+
+/// What does not fit the shapes, or does not fit between them.
+pub(super) fn validate_shapes(check: &mut Check<'_>, scene: &Scene, shapes: &Shapes) {
+    if let (Some(fluid), Some(mesh)) = (&scene.fluid, &shapes.fluid) {
+        mesh::check(check, scene, fluid, mesh);
+    }
+    interface::check(check, scene, shapes);
 }
 
 /// The findings so far, and the places they can point at.
-struct Check<'a> {
+pub(super) struct Check<'a> {
     document: &'a Document<'a>,
     findings: Vec<Finding>,
 }
 
-impl Check<'_> {
-    fn add(&mut self, finding: Finding) {
+impl<'a> Check<'a> {
+    pub(super) fn new(document: &'a Document<'a>) -> Self {
+        Self { document, findings: Vec::new() }
+    }
+
+    /// `value` if nothing was found, else everything that was, in the order in which it stands in the scene.
+    pub(super) fn done<T>(mut self, value: T) -> Result<T, Vec<Finding>> {
+        if self.findings.is_empty() {
+            return Ok(value);
+        }
+        self.findings.sort_by_key(|finding| finding.marks.first().map(|(place, _)| place.start));
+        Err(self.findings)
+    }
+
+    pub(super) fn add(&mut self, finding: Finding) {
         self.findings.push(finding);
     }
 
-    fn key(&self, path: &[&str]) -> Option<Range<usize>> {
+    pub(super) fn key(&self, path: &[&str]) -> Option<Range<usize>> {
         self.document.entry(path).map(|entry| entry.key)
     }
 
-    fn value(&self, path: &[&str]) -> Option<Range<usize>> {
+    pub(super) fn value(&self, path: &[&str]) -> Option<Range<usize>> {
         self.document.entry(path).map(|entry| entry.value)
     }
 }

@@ -92,7 +92,8 @@ fn float(number: f64) -> String {
     }
 }
 
-fn key(name: &str) -> String {
+/// A name as a key of TOML, in quotes where it must be.
+pub(super) fn key(name: &str) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
     if !name.is_empty() && name.chars().all(bare) { name.to_owned() } else { basic_string(name) }
 }

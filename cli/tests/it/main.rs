@@ -1,5 +1,6 @@
 //! Whole-crate tests: scenes, output, checkpoints, runs.
 
+mod beam;
 mod checkpoint;
 mod output;
 mod program;

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use insta::assert_snapshot;
 use partita::build::{self, Run};
 use partita::output::{Clock, Ending};
-use partita::scene::schema::Scene;
 use partita::scene::{self, Resolved};
 use partita::session::{Options, RunError, Session};
 use partita_coupling::conformance::{ParticipantCheck, check_participant};
@@ -24,10 +23,10 @@ fn limits(fluid: &str, structure: &str) -> [String; 2] {
 }
 
 /// Steps a run and returns its records.
-fn records(run: &mut Run, scene: &Scene, steps: usize) -> Vec<Record> {
+fn records(run: &mut Run, tank: &Resolved, steps: usize) -> Vec<Record> {
     let mut records = Vec::new();
     for _ in 0..steps {
-        run.step(scene.time.step.get(), &mut records).expect("the step converges");
+        run.step(tank.scene.time.step.get(), &mut records).expect("the step converges");
     }
     records
 }
@@ -44,8 +43,8 @@ fn first_steps_of_the_tank_cost_what_they_did() {
     let mut table = vec!["N^f N^s  coupling  fluid  structure".to_owned()];
     for (fluid, structure) in [("1", "1"), ("unlimited", "unlimited"), ("2", "3"), ("unlimited", "1")] {
         let [of_fluid, of_structure] = limits(fluid, structure);
-        let scene = tank(&[&of_fluid, &of_structure]).scene;
-        let records = records(&mut build::run(&scene).expect("the scene builds"), &scene, 5);
+        let tank = tank(&[&of_fluid, &of_structure]);
+        let records = records(&mut build::run(&tank).expect("the scene builds"), &tank, 5);
         let newton = |field: usize| iterations(&records).map(|k| k.fields[field].newton).sum::<usize>();
         let coupling = iterations(&records).count();
         table.push(format!("{fluid} {structure}: {coupling} {} {}", newton(0), newton(1)));
@@ -62,8 +61,8 @@ fn first_steps_of_the_tank_cost_what_they_did() {
 #[test]
 fn no_call_exceeds_its_newton_limit_and_a_converged_structure_costs_nothing() {
     let [fluid, structure] = limits("1", "1");
-    let scene = tank(&[&fluid, &structure]).scene;
-    let records = records(&mut build::run(&scene).expect("the scene builds"), &scene, 5);
+    let tank = tank(&[&fluid, &structure]);
+    let records = records(&mut build::run(&tank).expect("the scene builds"), &tank, 5);
     let mut free_calls = 0;
     for iteration in iterations(&records) {
         let [fluid, structure] = &iteration.fields;
@@ -77,9 +76,9 @@ fn no_call_exceeds_its_newton_limit_and_a_converged_structure_costs_nothing() {
 
 #[test]
 fn virtual_work_is_kept_between_the_meshes() {
-    let scene = tank(&[]).scene;
-    let mut run = build::run(&scene).expect("the scene builds");
-    for iteration in iterations(&records(&mut run, &scene, 3)) {
+    let tank = tank(&[]);
+    let mut run = build::run(&tank).expect("the scene builds");
+    for iteration in iterations(&records(&mut run, &tank, 3)) {
         assert!(iteration.work_defect < 1e-13, "work defect {:e}", iteration.work_defect);
     }
 }
@@ -88,16 +87,15 @@ fn virtual_work_is_kept_between_the_meshes() {
 fn gravity_rests_on_the_bottom_at_the_first_instant_of_a_stiff_tank() {
     // A bottom that hardly gives way carries the weight of the fluid, rho g L H = 9810 N/m, but for what hangs on the
     // walls by viscosity; with slip walls nothing does. (At 1e15 Pa the 0.012 N/m that accelerate the fluid show.)
-    let scene = tank(&[
+    let tank = tank(&[
         "structure.material.saint_venant_kirchhoff.young_modulus=1e18",
         "fluid.boundary.left=slip",
         "fluid.boundary.right=slip",
         "fluid.newton.tolerance={relative=1e-10}",
         "structure.newton.tolerance={relative=1e-8}",
-    ])
-    .scene;
-    let mut run = build::run(&scene).expect("the scene builds");
-    records(&mut run, &scene, 1);
+    ]);
+    let mut run = build::run(&tank).expect("the scene builds");
+    records(&mut run, &tank, 1);
     let fluid = run.first().field().expect("the tank has a fluid");
     let [x, y] = fluid.force_on("bottom").expect("the tank has a bottom");
     assert!((y + 9810.0).abs() < 1e-4 && x.abs() < 1e-4, "force ({x}, {y}) N/m");
@@ -105,13 +103,12 @@ fn gravity_rests_on_the_bottom_at_the_first_instant_of_a_stiff_tank() {
 
 #[test]
 fn both_solvers_keep_the_contract_of_a_participant() {
-    let scene = tank(&[
+    let tank = tank(&[
         "fluid.newton={tolerance={relative=1e-11}}",
         "structure.newton={tolerance={relative=1e-11}}",
         "fluid.tangent=full",
-    ])
-    .scene;
-    let mut run = build::run(&scene).expect("the scene builds");
+    ]);
+    let mut run = build::run(&tank).expect("the scene builds");
     let step = Step { index: 1, time: 0.01, dt: 0.01 };
     let (fluid, structure) = run.participants_mut();
     let sag = |depth: f64| -> Vec<f64> {
@@ -159,7 +156,7 @@ fn a_resumed_run_equals_the_uninterrupted_one() {
     fs::write(parts.join("run.jsonl"), half).expect("a broken line");
     let clock = Clock::start();
     let options = Options { quiet: true, ..Options::default() };
-    let resumed = Session::resume(&tank.scene, &parts, options, clock).expect("it can be resumed");
+    let resumed = Session::resume(&tank, &parts, options, clock).expect("it can be resumed");
     assert_eq!(resumed.finish().expect("the rest converges").steps, 9);
     for name in ["run.jsonl", "iterations.csv", "steps.csv", "probes.csv", "scene.toml", "fluid.pvd"] {
         let timeless = |dir: &Path| without_times(&dir.join(name));
@@ -187,7 +184,7 @@ fn one_field_alone_runs_in_the_same_loop() {
 
 fn start<'a>(tank: &'a Resolved, dir: &Path, steps: Option<usize>) -> Session<'a> {
     let options = Options { steps, quiet: true, stop: None };
-    Session::start(&tank.scene, &tank.to_toml(), dir, options, Clock::start()).expect("the run starts")
+    Session::start(&tank, dir, options, Clock::start()).expect("the run starts")
 }
 
 fn json(path: &PathBuf) -> Value {

@@ -90,12 +90,16 @@ fn triangles(divisions: [usize; 2], pattern: Diagonal) -> Cells {
     Cells::new(CellKind::Triangle3, nodes)
 }
 
+/// The boundary groups of a rectangle, in their order.
+pub const RECTANGLE_SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
+
 fn sides([nx, ny]: [usize; 2]) -> Vec<NamedFacets<2>> {
     let node = |i: usize, j: usize| j * (nx + 1) + i;
-    vec![
-        ("left".into(), (0..ny).map(|j| [node(0, j + 1), node(0, j)]).collect()),
-        ("right".into(), (0..ny).map(|j| [node(nx, j), node(nx, j + 1)]).collect()),
-        ("bottom".into(), (0..nx).map(|i| [node(i, 0), node(i + 1, 0)]).collect()),
-        ("top".into(), (0..nx).map(|i| [node(i + 1, ny), node(i, ny)]).collect()),
-    ]
+    let facets = [
+        (0..ny).map(|j| [node(0, j + 1), node(0, j)]).collect(),
+        (0..ny).map(|j| [node(nx, j), node(nx, j + 1)]).collect(),
+        (0..nx).map(|i| [node(i, 0), node(i + 1, 0)]).collect(),
+        (0..nx).map(|i| [node(i + 1, ny), node(i, ny)]).collect(),
+    ];
+    RECTANGLE_SIDES.map(str::to_owned).into_iter().zip(facets).collect()
 }

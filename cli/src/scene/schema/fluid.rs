@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::file::FileName;
 use super::formula::VectorFormula;
 use super::newton::Newton;
 use super::numbers::{Count, NonNegative, PoissonRatio, Positive, Real};
@@ -93,15 +94,23 @@ pub struct PressurePin {
 pub enum FluidMesh {
     /// Triangles in a rectangle; boundary groups `left`, `right`, `bottom`, `top`.
     Rectangle(RectangleMesh),
+    /// Triangles from a file of gmsh; its physical curves are the boundary groups.
+    Gmsh(GmshMesh),
 }
 
-impl FluidMesh {
-    /// The boundary groups of the mesh, as far as the scene tells them.
-    pub(in crate::scene) fn groups(&self) -> Vec<&str> {
-        match self {
-            Self::Rectangle(_) => vec!["left", "right", "bottom", "top"],
-        }
-    }
+/// `[fluid.mesh.gmsh]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GmshMesh {
+    /// File of format 2.2 or 4.1, text or binary, relative to the scene's folder.
+    pub file: FileName,
+    /// Factor on the file's coordinates: 0.001 for a mesh in millimetres. Default: 1.
+    #[serde(default = "one")]
+    pub scale: Positive,
+}
+
+fn one() -> Positive {
+    Positive::new(1.0).expect("1 is positive")
 }
 
 /// `[fluid.mesh.rectangle]`.

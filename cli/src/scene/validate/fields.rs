@@ -1,9 +1,8 @@
 //! Which fields are there, how they are coupled, and what is asked of them.
 
 use super::Check;
-use crate::nearest::nearest;
 use crate::scene::finding::Finding;
-use crate::scene::schema::{Fluid, FluidMesh, FluidTimeScheme, Probe, Scene, Structure, StructureTimeScheme};
+use crate::scene::schema::{Fluid, FluidTimeScheme, Probe, Scene, Structure, StructureTimeScheme};
 
 pub(super) fn check(check: &mut Check<'_>, scene: &Scene) {
     match (&scene.fluid, &scene.structure) {
@@ -67,47 +66,5 @@ fn check_probe(check: &mut Check<'_>, scene: &Scene, name: &str, probe: &Probe) 
                 .mark_if(place, format!("the scene has no [{field}]"))
                 .hint(format!("leave the probe out, or add a [{field}]")),
         );
-        return;
     }
-    let Some(fluid) = &scene.fluid else { return };
-    match probe {
-        Probe::FluidForce(group) => {
-            known_group(check, fluid, group, &["output", "probes", name, "fluid_force"]);
-        }
-        Probe::FluidValue(point) => {
-            let FluidMesh::Rectangle(mesh) = &fluid.mesh;
-            let outside = (0..2).any(|c| {
-                let low = mesh.origin[c].get();
-                !(low..=low + mesh.size[c].get()).contains(&point[c].get())
-            });
-            if outside {
-                check.add(
-                    Finding::new(format!("probe `{name}` lies outside the fluid's mesh"))
-                        .mark_if(
-                            check.value(&["output", "probes", name, "fluid_value"]),
-                            "not inside the rectangle",
-                        )
-                        .hint("give a point [m] inside the undeformed mesh"),
-                );
-            }
-        }
-        Probe::StructureDisplacement(_) => {}
-    }
-}
-
-/// A boundary group that is named must be in the mesh.
-pub(super) fn known_group(check: &mut Check<'_>, fluid: &Fluid, group: &str, path: &[&str]) {
-    let groups = fluid.mesh.groups();
-    if groups.contains(&group) {
-        return;
-    }
-    let hint = match nearest(group, groups.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("groups of the mesh: {}", groups.join(", ")),
-    };
-    check.add(
-        Finding::new(format!("the mesh has no boundary group `{group}`"))
-            .mark_if(check.value(path), "unknown group")
-            .hint(hint),
-    );
 }

@@ -1,24 +1,24 @@
 //! Whether the fluid's boundary is complete and its pressure determined.
 
-use super::Check;
-use super::fields::known_group;
-use crate::nearest::nearest;
+use partita_mesh::generate;
+
+use super::{Check, groups};
 use crate::scene::finding::Finding;
-use crate::scene::schema::{Condition, Fluid, FluidMesh};
+use crate::scene::schema::{Condition, Fluid, FluidMesh, RectangleMesh, Scene};
 
 /// Cells of a generated mesh; more would not fit any machine the program is written for.
 const MOST_CELLS: f64 = 1e8;
 
-pub(super) fn check(check: &mut Check<'_>, fluid: &Fluid, coupled: bool) {
-    size(check, fluid);
-    groups(check, fluid);
-    slides(check, fluid);
+pub(super) fn check(check: &mut Check<'_>, scene: &Scene, fluid: &Fluid, coupled: bool) {
+    if let FluidMesh::Rectangle(mesh) = &fluid.mesh {
+        size(check, mesh);
+        groups::check(check, scene, fluid, &generate::RECTANGLE_SIDES);
+    }
     interface(check, fluid, coupled);
     pressure(check, fluid, coupled);
 }
 
-fn size(check: &mut Check<'_>, fluid: &Fluid) {
-    let FluidMesh::Rectangle(mesh) = &fluid.mesh;
+fn size(check: &mut Check<'_>, mesh: &RectangleMesh) {
     let cells = 4.0 * mesh.divisions[0].get() as f64 * mesh.divisions[1].get() as f64;
     if cells > MOST_CELLS {
         check.add(
@@ -26,48 +26,6 @@ fn size(check: &mut Check<'_>, fluid: &Fluid) {
                 .mark_if(check.value(&["fluid", "mesh", "rectangle", "divisions"]), "too fine")
                 .hint(format!("at most {MOST_CELLS:.0e} cells can be asked for")),
         );
-    }
-}
-
-/// Every group has one condition, every condition has its group.
-fn groups(check: &mut Check<'_>, fluid: &Fluid) {
-    let groups = fluid.mesh.groups();
-    let open: Vec<&str> =
-        groups.iter().copied().filter(|group| !fluid.boundary.contains_key(*group)).collect();
-    let mut misspelled = Vec::new();
-    for group in fluid.boundary.keys().filter(|group| !groups.contains(&group.as_str())) {
-        let near = nearest(group, open.iter().copied());
-        misspelled.extend(near);
-        let hint = match near {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("groups of the mesh: {}", groups.join(", ")),
-        };
-        check.add(
-            Finding::new(format!("the mesh has no boundary group `{group}`"))
-                .mark_if(check.key(&["fluid", "boundary", group]), "unknown group")
-                .hint(hint),
-        );
-    }
-    for group in open.iter().filter(|group| !misspelled.contains(group)) {
-        check.add(
-            Finding::new(format!("boundary group `{group}` has no condition"))
-                .mark_if(check.key(&["fluid", "boundary"]), format!("nothing about `{group}` here"))
-                .hint(format!("without one the equations are not closed: add `{group} = \"no_slip\"` or another condition")),
-        );
-    }
-}
-
-fn slides(check: &mut Check<'_>, fluid: &Fluid) {
-    for group in &fluid.mesh_motion.slide {
-        known_group(check, fluid, group, &["fluid", "mesh_motion", "slide"]);
-        if matches!(fluid.boundary.get(group), Some(Condition::Interface | Condition::WallMotion(_))) {
-            check.add(
-                Finding::new(format!("mesh nodes cannot slide along `{group}`, which moves itself"))
-                    .mark_if(check.value(&["fluid", "mesh_motion", "slide"]), "slides here")
-                    .mark_if(check.value(&["fluid", "boundary", group]), "prescribes the motion")
-                    .hint(format!("take `{group}` out of `slide`")),
-            );
-        }
     }
 }
 

@@ -155,16 +155,16 @@ fn a_steady_fluid_and_inertia_do_not_go_together() {
 
 #[test]
 fn a_probe_outside_the_mesh_is_refused() {
-    assert_snapshot!(message(&format!("{SOUND}{}", "\n[output.probes]\ncentre = { fluid_value = [0.5, 1.5] }\n"), &[]), @r#"
-      × probe `centre` lies outside the fluid's mesh
-        ╭─[scene.toml:40:26]
-     39 │ [output.probes]
-     40 │ centre = { fluid_value = [0.5, 1.5] }
-        ·                          ─────┬────
-        ·                               ╰── not inside the rectangle
-        ╰────
-      help: give a point [m] inside the undeformed mesh
-    "#);
+    assert_snapshot!(message(&format!("{SOUND}{}", "\n[output.probes]\ncentre = { fluid_value = [0.5, 1.5] }\n"), &[]), @r"
+     × probe `centre` lies outside the fluid's mesh
+       ╭─[scene.toml:40:26]
+    39 │ [output.probes]
+    40 │ centre = { fluid_value = [0.5, 1.5] }
+       ·                          ─────┬────
+       ·                               ╰── no triangle holds (0.5, 1.5) m
+       ╰────
+     help: give a point [m] inside the undeformed mesh
+    ");
 }
 
 #[test]

@@ -1,0 +1,64 @@
+//! What a scene is made of in space: the fluid's mesh and the structure's patch, made or read once.
+
+mod fluid;
+mod read;
+mod structure;
+
+use std::fmt;
+use std::path::Path;
+
+use partita_iga::Spline;
+use partita_mesh::Mesh;
+
+use super::finding::Finding;
+use super::schema::{FileName, FluidMesh, Scene};
+use super::validate::Check;
+
+pub(crate) use read::Input;
+
+/// The fluid's mesh and the structure's patch, as far as the scene has them.
+#[derive(Debug, Clone, Default)]
+pub struct Shapes {
+    /// The fluid's mesh before it moves.
+    pub fluid: Option<Mesh<2>>,
+    /// The structure before it deforms.
+    pub structure: Option<Spline<2>>,
+    /// The files that were read for them.
+    pub(crate) inputs: Vec<Input>,
+}
+
+impl Shapes {
+    /// Makes or reads the shapes of `scene`, whose file names are relative to `folder`; adds what is wrong with them.
+    pub(super) fn make(scene: &Scene, folder: &Path, check: &mut Check<'_>) -> Self {
+        let mut shapes = Self::default();
+        if let Some(scene) = &scene.fluid {
+            shapes.fluid = fluid::mesh(&scene.mesh, folder, &mut shapes.inputs, check);
+        }
+        if let Some(scene) = &scene.structure {
+            shapes.structure = structure::patch(&scene.geometry, folder, &mut shapes.inputs, check);
+        }
+        shapes
+    }
+}
+
+/// Folder of a run that keeps the files its scene was built from.
+pub(crate) const INPUT_FOLDER: &str = "input";
+/// The fluid's mesh in that folder.
+const FLUID_FILE: &str = "fluid.msh";
+/// All files that may be in it.
+pub(crate) const INPUT_FILES: [&str; 1] = [FLUID_FILE];
+
+/// Lets `scene` name the copies of its files that a run keeps.
+pub(super) fn name_copies(scene: &mut Scene) {
+    let copy = |name: &str| FileName::literal(&format!("{INPUT_FOLDER}/{name}"));
+    if let Some(FluidMesh::Gmsh(mesh)) = scene.fluid.as_mut().map(|fluid| &mut fluid.mesh) {
+        mesh.file = copy(FLUID_FILE);
+    }
+}
+
+/// The message of a library, `what` and then a line `hint: ...`, as a finding without a place.
+fn finding(error: &impl fmt::Display) -> Finding {
+    let text = error.to_string();
+    let (what, hint) = text.split_once("\nhint: ").unwrap_or((&text, ""));
+    Finding::new(what).hint(hint)
+}

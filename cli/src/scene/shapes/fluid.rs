@@ -1,0 +1,53 @@
+//! The fluid's mesh.
+
+use std::path::Path;
+
+use partita_mesh::Mesh;
+use partita_mesh::generate::{self, Diagonal};
+use partita_mesh::gmsh::GmshFile;
+
+use super::read::{self, Input};
+use super::{FLUID_FILE, finding};
+use crate::scene::finding::Finding;
+use crate::scene::schema::{Count, Diagonals, FluidMesh, GmshMesh, Positive, Real, RectangleMesh};
+use crate::scene::validate::Check;
+
+/// The mesh, or what is wrong with it.
+pub(super) fn mesh(
+    mesh: &FluidMesh,
+    folder: &Path,
+    inputs: &mut Vec<Input>,
+    check: &mut Check<'_>,
+) -> Option<Mesh<2>> {
+    let (made, place) = match mesh {
+        FluidMesh::Rectangle(mesh) => (rectangle(mesh), &["fluid", "mesh", "rectangle"][..]),
+        FluidMesh::Gmsh(mesh) => (from_file(mesh, folder, inputs), &["fluid", "mesh", "gmsh", "file"][..]),
+    };
+    made.map_err(|finding| check.add(finding.mark_if(check.value(place), "this mesh"))).ok()
+}
+
+fn rectangle(mesh: &RectangleMesh) -> Result<Mesh<2>, Finding> {
+    let made = generate::rectangle(&generate::RectangleMesh {
+        origin: mesh.origin.map(Real::get),
+        size: mesh.size.map(Positive::get),
+        divisions: mesh.divisions.map(Count::get),
+        pattern: match mesh.diagonals {
+            Diagonals::Crossed => Diagonal::Crossed,
+            Diagonals::Right => Diagonal::Right,
+            Diagonals::Left => Diagonal::Left,
+            Diagonals::Alternating => Diagonal::Alternating,
+        },
+    });
+    made.map_err(|error| finding(&error))
+}
+
+fn from_file(mesh: &GmshMesh, folder: &Path, inputs: &mut Vec<Input>) -> Result<Mesh<2>, Finding> {
+    let bytes = read::bytes(&mesh.file, folder)?;
+    let mut file = GmshFile::parse(&bytes).map_err(|error| finding(&format!("{}, {error}", mesh.file)))?;
+    for x in file.points.as_flattened_mut() {
+        *x *= mesh.scale.get();
+    }
+    let made = file.into_mesh().map_err(|error| finding(&format!("{}: {error}", mesh.file)))?;
+    inputs.push(Input { name: FLUID_FILE, bytes });
+    Ok(made)
+}

@@ -226,11 +226,10 @@ fn decisive(resolved: &Resolved) -> String {
     let mut resolved = resolved.clone();
     resolved.scene.time.steps = Count::literal(1);
     resolved.scene.output = Output::default();
-    let mut text = resolved.to_toml();
-    for input in &resolved.shapes.inputs {
-        text += &format!("# {} has checksum {:08x}\n", input.name, crc32fast::hash(&input.bytes));
-    }
-    text
+    let inputs = resolved.shapes.inputs.iter();
+    let sums =
+        inputs.map(|input| format!("# {} has checksum {:08x}\n", input.name, crc32fast::hash(&input.bytes)));
+    resolved.to_toml() + &sums.collect::<String>()
 }
 
 /// Passes what happens inside a step on to files and terminal; keeps the first refusal for after the step.

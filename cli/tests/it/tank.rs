@@ -184,7 +184,7 @@ fn one_field_alone_runs_in_the_same_loop() {
 
 fn start<'a>(tank: &'a Resolved, dir: &Path, steps: Option<usize>) -> Session<'a> {
     let options = Options { steps, quiet: true, stop: None };
-    Session::start(&tank, dir, options, Clock::start()).expect("the run starts")
+    Session::start(tank, dir, options, Clock::start()).expect("the run starts")
 }
 
 fn json(path: &PathBuf) -> Value {

@@ -4,6 +4,7 @@
 
 mod basis;
 mod build;
+mod file;
 mod project;
 mod refine;
 mod spline;

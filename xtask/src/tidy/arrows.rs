@@ -28,7 +28,7 @@ const RESERVED: [(&str, &[&str]); 5] = [
     ("clap", &["cli"]),
     ("indicatif", &["cli"]),
     ("miette", &["cli"]),
-    ("toml", &["cli", "xtask"]),
+    ("toml", &["cli", "iga", "xtask"]),
 ];
 
 pub(crate) fn check(tree: &Tree) -> Vec<Finding> {

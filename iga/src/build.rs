@@ -1,7 +1,14 @@
 //! Splines for simple shapes.
 
-use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, TAU};
+mod round;
+mod ruled;
+mod strip;
 
+pub use round::{annular_sector, arc, circle, quarter_annulus};
+pub use ruled::ruled;
+pub use strip::{Alignment, strip};
+
+use crate::fit::FitError;
 use crate::knots::{KnotError, Knots};
 use crate::spline::{Spline, SplineError};
 
@@ -90,88 +97,10 @@ fn block<const D: usize>(
     Ok(Spline::new(knots, control_points)?)
 }
 
-/// An arc of a circle in the plane as an exact NURBS of degree 2, with one element for each quarter or part of one.
-///
-/// It starts at the angle `start`, in rad, from the x axis and runs through the angle `sweep`, in rad, counter-clockwise
-/// where that is positive. (Piegl and Tiller, *The NURBS Book*, section 7.5.)
-///
-/// # Errors
-/// When the radius is not positive and finite, the sweep is zero or more than a full turn, or the center or the
-/// start is not finite.
-///
-/// ```
-/// use partita_iga::build;
-///
-/// let arc = build::arc([1.0, 0.0], 2.0, 0.0, std::f64::consts::PI)?;
-/// let [x, y] = arc.point(&[0.37]);
-/// assert!(((x - 1.0).hypot(y) - 2.0).abs() < 1e-15);
-/// # Ok::<(), build::BuildError>(())
-/// ```
-pub fn arc(center: [f64; 2], radius: f64, start: f64, sweep: f64) -> Result<Spline<2>, BuildError> {
-    check_extent(radius)?;
-    if !(0.0 < sweep.abs() && sweep.abs() <= TAU) {
-        return Err(BuildError::Sweep { sweep });
-    }
-    // Never more than a quarter an element, but not five elements for a full turn that is one bit too long.
-    let elements = (1..4).find(|&n| sweep.abs() <= f64::from(n) * FRAC_PI_2).unwrap_or(4);
-    let half = 0.5 * sweep / f64::from(elements);
-    // Even points lie on the circle; odd ones are where the tangents meet.
-    let place = |i: i32| {
-        let (sin, cos) = (start + half * f64::from(i)).sin_cos();
-        let reach = if i % 2 == 0 { radius } else { radius / half.cos() };
-        [center[0] + reach * cos, center[1] + reach * sin]
-    };
-    let control_points = (0..=2 * elements).map(place).collect();
-    let weights = (0..=2 * elements).map(|i| if i % 2 == 0 { 1.0 } else { half.cos() }).collect();
-    let joints = (1..elements).flat_map(|e| [f64::from(e) / f64::from(elements); 2]);
-    let knots = [0.0; 3].into_iter().chain(joints).chain([1.0; 3]).collect();
-    Ok(Spline::rational(vec![Knots::new(2, knots)?], control_points, weights)?)
-}
-
-/// Corners and middles of the edges of the square round the unit circle, counter-clockwise.
-#[rustfmt::skip]
-const SQUARE: [[f64; 2]; 9] = [
-    [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [-1.0, 1.0], [-1.0, 0.0], [-1.0, -1.0], [0.0, -1.0], [1.0, -1.0], [1.0, 0.0],
-];
-
-/// A full circle as an exact NURBS of degree 2, counter-clockwise from its rightmost point, closed to the last bit.
-///
-/// # Errors
-/// When the radius is not positive and finite, or the center is not finite.
-pub fn circle(center: [f64; 2], radius: f64) -> Result<Spline<2>, BuildError> {
-    check_extent(radius)?;
-    let control_points =
-        SQUARE.iter().map(|[x, y]| [center[0] + radius * x, center[1] + radius * y]).collect();
-    let weights = (0..9).map(|i| if i % 2 == 0 { 1.0 } else { FRAC_1_SQRT_2 }).collect();
-    let knots = [0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0];
-    Ok(Spline::rational(vec![Knots::new(2, knots.to_vec())?], control_points, weights)?)
-}
-
-/// A quarter of a ring about the origin, in the first quadrant, as one exact NURBS element.
-///
-/// The first parameter runs outwards (`left` is the inner arc, `right` the outer one) and is linear, the second runs
-/// counter-clockwise from the x axis (`bottom`) to the y axis (`top`) and is quadratic.
-///
-/// # Errors
-/// When the inner radius or the thickness is not positive and finite.
-///
-/// ```
-/// use partita_iga::{Side, build};
-///
-/// let ring = build::quarter_annulus(1.0, 1.5)?.elevate_degree(0, 1).subdivide(1, 8)?;
-/// let (outer, _) = ring.side(Side::RIGHT);
-/// let [x, y] = outer.point(&[0.3]);
-/// assert!((x.hypot(y) - 1.5).abs() < 1e-15);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn quarter_annulus(inner: f64, outer: f64) -> Result<Spline<2>, BuildError> {
-    check_extent(inner)?;
-    check_extent(outer - inner)?;
-    let (a, b) = (inner, outer);
-    let control_points = vec![[a, 0.0], [b, 0.0], [a, a], [b, b], [0.0, a], [0.0, b]];
-    let weights = vec![1.0, 1.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2, 1.0, 1.0];
-    let knots = vec![Knots::uniform(1, 1)?, Knots::uniform(2, 1)?];
-    Ok(Spline::rational(knots, control_points, weights)?)
+/// A patch that is linear in its second parameter, with another degree and more elements there.
+fn refined_across(patch: &Spline<2>, degree: usize, elements: usize) -> Result<Spline<2>, BuildError> {
+    let elevation = degree.checked_sub(1).ok_or(KnotError::DegreeZero)?;
+    Ok(patch.elevate_degree(1, elevation).subdivide(1, elements)?)
 }
 
 fn check_extent(extent: f64) -> Result<(), BuildError> {
@@ -197,6 +126,70 @@ pub enum BuildError {
         /// The angle given, in rad.
         sweep: f64,
     },
+    /// A degree below that of a circle.
+    #[error(
+        "an arc of degree {degree} is not round\nhint: a circle needs a degree of at least 2 along the arc"
+    )]
+    ArcDegree {
+        /// The degree given.
+        degree: usize,
+    },
+    /// Fewer elements than the shape has pieces.
+    #[error(
+        "{found} elements are too few along this shape\nhint: take {needed} or more, so that every place where its \
+         pieces join is the end of an element"
+    )]
+    TooFewElements {
+        /// Number of elements asked for.
+        found: usize,
+        /// Least number.
+        needed: usize,
+    },
+    /// Two splines that do not run alike.
+    #[error(
+        "a ruled spline needs sides with the same knots, and those of parameter {parameter} differ\n\
+         hint: bring the sides to the same degree with `elevate_degree` and to the same knots with `insert_knots`"
+    )]
+    Unlike {
+        /// The first parameter in which they differ.
+        parameter: usize,
+    },
+    /// Not a curve.
+    #[error("a strip runs along a curve, and this spline has {parameters} parameters\nhint: give a curve")]
+    NotACurve {
+        /// Number of parameters found.
+        parameters: usize,
+    },
+    /// A curve that stands still, turns back or has a corner.
+    #[error(
+        "the curve has no direction at its parameter {parameter}, near {place:?}\nhint: a strip needs a curve without \
+         corners, cusps and points where it stands still"
+    )]
+    NoDirection {
+        /// The parameter.
+        parameter: f64,
+        /// The point there.
+        place: [f64; 2],
+    },
+    /// A strip thicker than its curve is curved.
+    #[error(
+        "a strip of thickness {thickness} folds over itself at the parameter {parameter} of its curve, near {place:?}, \
+         where the radius of curvature is {radius}\nhint: make the strip thinner, lay it on the outer side of the bend, \
+         or bend the curve less; where the radius is not small, take more elements"
+    )]
+    Folded {
+        /// Thickness asked for.
+        thickness: f64,
+        /// Parameter of the curve where the patch is worst.
+        parameter: f64,
+        /// Point of the curve there.
+        place: [f64; 2],
+        /// Radius of curvature there.
+        radius: f64,
+    },
+    /// The side curves cannot be fitted.
+    #[error(transparent)]
+    Fit(#[from] FitError),
     /// The degree or the number of elements does not make a knot vector.
     #[error(transparent)]
     Knots(#[from] KnotError),

@@ -30,6 +30,7 @@ pub mod fit;
 mod knots;
 mod nearest;
 pub mod nurbs;
+pub mod orientation;
 pub mod project;
 mod refine;
 mod side;

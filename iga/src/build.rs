@@ -136,8 +136,8 @@ pub enum BuildError {
     },
     /// Fewer elements than the shape has pieces.
     #[error(
-        "{found} elements are too few along this shape\nhint: take {needed} or more, so that every place where its \
-         pieces join is the end of an element"
+        "{found} elements are too few along this shape\nhint: take {needed} or more, because each joint of its pieces is \
+         the end of an element; a curve through fewer points has fewer joints"
     )]
     TooFewElements {
         /// Number of elements asked for.

@@ -122,8 +122,7 @@ fn unit_at<const D: usize>(mut index: usize, units: &[Vec<f64>; D]) -> [f64; D] 
 fn scaled<const D: usize>(mut tangents: [[f64; D]; D], spans: &[f64; D], short: f64) -> f64 {
     for (tangent, span) in tangents.iter_mut().zip(spans) {
         let speed = length(tangent);
-        // Not `<=`: what is not a number is no direction either.
-        if !(speed * span > short) {
+        if speed.is_nan() || speed * span <= short {
             return 0.0;
         }
         *tangent = tangent.map(|x| x / speed);
@@ -234,10 +233,10 @@ mod tests {
 
     #[test]
     fn determinants_are_those_of_the_rule_of_sarrus() {
-        assert_eq!(determinant([[0.0, 2.0], [3.0, 4.0]]), -6.0);
+        assert!((determinant([[0.0, 2.0], [3.0, 4.0]]) + 6.0).abs() < 1e-14);
         let d = determinant([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 10.0]]);
         assert!((d + 3.0).abs() < 1e-14, "{d}");
-        assert_eq!(determinant([[1.0, 2.0], [2.0, 4.0]]), 0.0);
+        assert!(determinant([[1.0, 2.0], [2.0, 4.0]]).abs() < 1e-15);
     }
 
     #[test]

@@ -27,7 +27,7 @@ pub fn arc(center: [f64; 2], radius: f64, start: f64, sweep: f64) -> Result<Spli
     check_extent(radius)?;
     check_sweep(sweep)?;
     // Never more than a quarter an element, but not five elements for a full turn that is one bit too long.
-    let elements = (1..4).find(|&n| sweep.abs() <= n as f64 * FRAC_PI_2).unwrap_or(4);
+    let elements = (1..4_usize).find(|&n| sweep.abs() <= n as f64 * FRAC_PI_2).unwrap_or(4);
     let joints: Vec<f64> = (0..=elements).map(|e| e as f64 / elements as f64).collect();
     pieces(center, radius, start, sweep, &joints)
 }
@@ -166,7 +166,7 @@ pub fn annular_sector(
 fn joints(sweep: f64, elements: usize) -> Result<Vec<f64>, BuildError> {
     // Not one piece more for a sweep that is one bit too long.
     let reach = LONGEST_PIECE / sweep.abs() * (1.0 + 4.0 * f64::EPSILON);
-    let needed = (1..3).find(|&pieces| 1.0 <= pieces as f64 * reach).unwrap_or(3);
+    let needed = (1..3_usize).find(|&pieces| 1.0 <= pieces as f64 * reach).unwrap_or(3);
     if elements < needed {
         return Err(BuildError::TooFewElements { found: elements, needed });
     }

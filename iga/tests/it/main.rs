@@ -5,6 +5,9 @@
 mod basis;
 mod build;
 mod file;
+mod file_faults;
+mod orientation;
+mod patches;
 mod project;
 mod refine;
 mod spline;

@@ -199,7 +199,7 @@ pub enum OrientationError {
     /// Inverted everywhere.
     #[error(
         "the patch is mirrored, its Jacobian is negative everywhere, for instance in {at}\n\
-         hint: list the control points and weights, and the knots, of one parameter backwards"
+         hint: run one parameter the other way: its control points and weights in reverse order, its knots mirrored"
     )]
     Mirrored {
         /// The place where it is most negative.

@@ -11,6 +11,9 @@ use crate::spline::Spline;
 const CORNER: f64 = 1e-8;
 /// A tangent shorter than this share of the curve's size, times the length of the domain, has no direction.
 const STANDSTILL: f64 = 1e-12;
+/// Steps that narrow down where a bend is sharpest, each by a third, until half the digits of its place are found: then a
+/// minimum itself has all of them.
+const SEARCH_STEPS: usize = 40;
 
 /// Which line of a strip its curve is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -159,6 +162,13 @@ struct Local {
     curvature: f64,
 }
 
+/// A place of a curve, and the least share of the curve's speed that an offset has there.
+struct Bend {
+    share: f64,
+    parameter: f64,
+    local: Local,
+}
+
 impl<'a> Frame<'a> {
     fn new(curve: &'a Spline<2>) -> Self {
         let [low, high] = curve.bounding_box();
@@ -198,22 +208,43 @@ impl<'a> Frame<'a> {
 
     /// No offset turns back: it runs at `1 - offset * curvature` times the speed of the curve.
     fn check_bends(&mut self, offsets: [f64; 2], thickness: f64) -> Result<(), BuildError> {
-        let knots = &self.curve.knots()[0];
-        let units = closed(4 * (knots.degree() + 1));
-        let mut worst: Option<(f64, BuildError)> = None;
-        for element in 0..knots.element_count() {
-            let [start, end] = knots.element(element);
-            for unit in &units {
-                let parameter = (1.0 - unit) * start + unit * end;
-                let Local { place, curvature, .. } = self.at(element, parameter)?;
-                let speed = offsets.map(|offset| 1.0 - offset * curvature).into_iter().fold(1.0, f64::min);
-                if speed <= 0.0 && worst.as_ref().is_none_or(|(least, _)| speed < *least) {
-                    let radius = 1.0 / curvature.abs();
-                    worst = Some((speed, BuildError::Folded { thickness, parameter, place, radius }));
-                }
+        for element in 0..self.curve.element_count() {
+            let Bend { share, parameter, local } = self.sharpest_bend(element, offsets)?;
+            if share <= 0.0 {
+                let radius = 1.0 / local.curvature.abs();
+                return Err(BuildError::Folded { thickness, parameter, place: local.place, radius });
             }
         }
-        worst.map_or(Ok(()), |(_, error)| Err(error))
+        Ok(())
+    }
+
+    /// Where in an element an offset is slowest: the slowest of some samples, and what lies between its neighbours.
+    fn sharpest_bend(&mut self, element: usize, offsets: [f64; 2]) -> Result<Bend, BuildError> {
+        let knots = &self.curve.knots()[0];
+        let [start, end] = knots.element(element);
+        let units = closed(4 * (knots.degree() + 1));
+        let mut at = |unit: f64| {
+            let parameter = (1.0 - unit) * start + unit * end;
+            let local = self.at(element, parameter)?;
+            let share = offsets.map(|a| 1.0 - a * local.curvature).into_iter().fold(1.0, f64::min);
+            Ok::<_, BuildError>(Bend { share, parameter, local })
+        };
+        let (mut least, mut sample) = (0, at(units[0])?);
+        for (i, unit) in units.iter().enumerate() {
+            let bend = at(*unit)?;
+            if bend.share < sample.share {
+                (least, sample) = (i, bend);
+            }
+        }
+        let mut bracket = [units[least.saturating_sub(1)], units[(least + 1).min(units.len() - 1)]];
+        for _ in 0..SEARCH_STEPS {
+            let third = (bracket[1] - bracket[0]) / 3.0;
+            let inner = [bracket[0] + third, bracket[1] - third];
+            let left = at(inner[0])?.share < at(inner[1])?.share;
+            bracket = if left { [bracket[0], inner[1]] } else { [inner[0], bracket[1]] };
+        }
+        let found = at(bracket[0])?;
+        Ok(if found.share < sample.share { found } else { sample })
     }
 
     /// What was fitted does not fold either. Between both sides the Jacobian is linear, so the sides are enough.

@@ -14,6 +14,7 @@ fn the_example_file_is_the_quarter_annulus() {
     let ring = build::quarter_annulus(1.0, 1.5).unwrap();
     assert_eq!(file::to_toml(&ring), RING);
     assert_eq!(file::from_toml(RING), Ok(ring));
+    assert!(include_str!("../../README.md").contains(RING), "the README shows the example");
 }
 
 fn bits<const D: usize>(spline: &Spline<D>) -> Vec<u64> {

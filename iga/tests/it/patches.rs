@@ -218,6 +218,27 @@ fn a_strip_thicker_than_the_bend_is_refused_at_its_place() {
 }
 
 #[test]
+fn few_elements_neither_hide_a_sharp_bend_nor_fold_by_themselves() {
+    let bezier = |points: &[[f64; 2]]| {
+        let knots = Knots::uniform(points.len() - 1, 1).unwrap();
+        Spline::new(vec![knots], points.to_vec()).unwrap()
+    };
+    // Radius 1/4 at the tip. One linear element would cut the tip off.
+    let tip = bezier(&[[0.0, 0.0], [1.0, 4.0], [2.0, 0.0]]);
+    for elements in [1, 30] {
+        let error = build::strip(&tip, 0.251, Alignment::Top, [1, 1], [elements, 1]).unwrap_err();
+        let BuildError::Folded { radius, place, .. } = error else { panic!("{error:?}") };
+        assert!((radius - 0.25).abs() < 1e-12 && distance(&place, &[1.0, 2.0]) < 1e-6, "{radius}, {place:?}");
+        assert!(build::strip(&tip, 0.249, Alignment::Top, [1, 1], [elements, 1]).is_ok());
+    }
+    // A hairpin of radius 0.19 and more: the chord of one linear element runs across its own thickness.
+    let hairpin = bezier(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]);
+    let strip = |elements| build::strip(&hairpin, 0.2, Alignment::Middle, [1, 1], [elements, 1]);
+    assert!(matches!(strip(1), Err(BuildError::Folded { .. })));
+    assert!(strip(20).is_ok());
+}
+
+#[test]
 fn curves_without_a_direction_are_refused() {
     let strip = |curve: &Spline<2>| build::strip(curve, 0.01, Alignment::Middle, [2, 1], [10, 1]);
     let corner =

@@ -20,7 +20,7 @@
 //! | [`scatter`] | element matrices and vectors into global ones |
 //! | [`factor`] | sparse LU, Cholesky and LDL^T behind one type |
 //! | [`newton`] | the Newton loop, its settings, its report |
-//! | [`time`] | coefficients of BDF1, BDF2 and generalized-alpha |
+//! | [`time`] | coefficients of BDF1, BDF2, generalized-alpha and Newmark |
 //! | [`gauss`] | quadrature on lines, triangles and tetrahedra |
 //! | [`small`] | algebra of 1x1, 2x2 and 3x3 matrices |
 //! | [`norms`] | norms and relative changes |

@@ -2,6 +2,8 @@
 
 mod bdf;
 mod generalized_alpha;
+mod newmark;
 
 pub use bdf::{Bdf, BdfOrder};
 pub use generalized_alpha::{GeneralizedAlpha, SpectralRadiusError};
+pub use newmark::NewmarkError;

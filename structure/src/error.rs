@@ -2,7 +2,7 @@
 
 use partita_iga::Side;
 use partita_numerics::FactorError;
-use partita_numerics::time::SpectralRadiusError;
+use partita_numerics::time::{NewmarkError, SpectralRadiusError};
 
 /// A structure that cannot be built, solved or restored.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -37,6 +37,9 @@ pub enum StructureError {
     /// The spectral radius of generalized-alpha is out of range.
     #[error(transparent)]
     SpectralRadius(#[from] SpectralRadiusError),
+    /// The parameters of Newmark's method are not stable at every step size.
+    #[error(transparent)]
+    Newmark(#[from] NewmarkError),
     /// Plane stress was asked for in three dimensions.
     #[error("plane stress has no meaning in three dimensions\nhint: leave the plane assumption at `strain`")]
     PlaneStressInSpace,

@@ -1,8 +1,9 @@
 //! One time step: how velocity and acceleration follow from the unknown displacement.
 
-use partita_numerics::time::{GeneralizedAlpha, SpectralRadiusError};
+use partita_numerics::time::GeneralizedAlpha;
 use serde::{Deserialize, Serialize};
 
+use crate::error::StructureError;
 use crate::state::StructureState;
 
 /// How the structure goes from `t_n` to `t_{n+1}`.
@@ -22,6 +23,23 @@ pub enum TimeScheme {
         /// Spectral radius at infinite frequency, in [0, 1]: 1 keeps all energy, 0 removes it within a step.
         spectral_radius: f64,
     },
+    /// Newmark (1959), with the unknown d_{n+1}: generalized-alpha with `alpha_m = alpha_f = 0`, so that
+    ///
+    /// ```text
+    /// M a_{n+1} + C v_{n+1} + f_int(d_{n+1}) = f_ext_{n+1}
+    /// ```
+    ///
+    /// Of second order for gamma = 1/2, where a linear vibration keeps its energy, else of first order; every size of
+    /// step is stable. `a_n` belongs to `t_n`, so that step sizes may change at will. See
+    /// [`GeneralizedAlpha::newmark`].
+    Newmark {
+        /// Weight of the new acceleration in the displacement, at least gamma/2: 1/4 is the average acceleration.
+        #[serde(default = "average_beta")]
+        beta: f64,
+        /// Weight of the new acceleration in the velocity, at least 1/2, which is the average acceleration.
+        #[serde(default = "average_gamma")]
+        gamma: f64,
+    },
     /// No inertia: `C (d_{n+1} - d_n)/dt + f_int(d_{n+1}) = f_ext_{n+1}`.
     QuasiStatic,
 }
@@ -33,18 +51,36 @@ impl Default for TimeScheme {
     }
 }
 
+fn average_beta() -> f64 {
+    GeneralizedAlpha::AVERAGE_ACCELERATION.beta
+}
+
+fn average_gamma() -> f64 {
+    GeneralizedAlpha::AVERAGE_ACCELERATION.gamma
+}
+
 /// A scheme with its coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Scheme {
+    /// Newmark's methods among them.
     GeneralizedAlpha(GeneralizedAlpha),
     QuasiStatic,
 }
 
 impl TimeScheme {
-    pub(crate) fn coefficients(self) -> Result<Scheme, SpectralRadiusError> {
+    /// Newmark with `beta = 1/4, gamma = 1/2`.
+    pub const AVERAGE_ACCELERATION: Self = Self::Newmark {
+        beta: GeneralizedAlpha::AVERAGE_ACCELERATION.beta,
+        gamma: GeneralizedAlpha::AVERAGE_ACCELERATION.gamma,
+    };
+
+    pub(crate) fn coefficients(self) -> Result<Scheme, StructureError> {
         Ok(match self {
             Self::GeneralizedAlpha { spectral_radius } => {
                 Scheme::GeneralizedAlpha(GeneralizedAlpha::from_spectral_radius(spectral_radius)?)
+            }
+            Self::Newmark { beta, gamma } => {
+                Scheme::GeneralizedAlpha(GeneralizedAlpha::newmark(beta, gamma)?)
             }
             Self::QuasiStatic => Scheme::QuasiStatic,
         })
@@ -142,10 +178,16 @@ mod tests {
         state
     }
 
+    fn inertial_schemes() -> [TimeScheme; 5] {
+        let [a, b, c] =
+            [0.0, 0.5, 1.0].map(|spectral_radius| TimeScheme::GeneralizedAlpha { spectral_radius });
+        [a, b, c, TimeScheme::AVERAGE_ACCELERATION, TimeScheme::Newmark { beta: 0.4, gamma: 0.6 }]
+    }
+
     #[test]
     fn uniform_acceleration_is_followed_exactly() {
-        for spectral_radius in [0.0, 0.5, 1.0] {
-            let scheme = TimeScheme::GeneralizedAlpha { spectral_radius }.coefficients().unwrap();
+        for scheme in inertial_schemes() {
+            let scheme = scheme.coefficients().unwrap();
             let (dt, a) = (0.3, -2.0);
             let old = state(1.0, 4.0, a);
             let mut new = state(1.0 + 4.0 * dt + 0.5 * a * dt * dt, 0.0, 0.0);
@@ -158,8 +200,7 @@ mod tests {
     #[test]
     fn tangent_weights_are_derivatives_of_the_averaged_motion() {
         let old = state(0.1, -0.7, 0.4);
-        let schemes = [0.0, 0.5, 1.0].map(|spectral_radius| TimeScheme::GeneralizedAlpha { spectral_radius });
-        for scheme in schemes.into_iter().chain([TimeScheme::QuasiStatic]) {
+        for scheme in inertial_schemes().into_iter().chain([TimeScheme::QuasiStatic]) {
             let step = Step::new(scheme.coefficients().unwrap(), 0.25);
             let averaged = |d: f64| {
                 let mut new = state(d, 0.0, 0.0);
@@ -176,6 +217,13 @@ mod tests {
             assert_relative_eq!(damping, ahead[1] - behind[1], epsilon = 1e-12);
             assert_relative_eq!(stiffness, ahead[2] - behind[2], epsilon = 1e-12);
         }
+    }
+
+    #[test]
+    fn newmark_without_parameters_is_the_average_acceleration() {
+        let read = |text| serde_json::from_str::<TimeScheme>(text).unwrap();
+        assert_eq!(read(r#"{"newmark": {}}"#), TimeScheme::AVERAGE_ACCELERATION);
+        assert_eq!(read(r#"{"newmark": {"beta": 0.4}}"#), TimeScheme::Newmark { beta: 0.4, gamma: 0.5 });
     }
 
     #[test]

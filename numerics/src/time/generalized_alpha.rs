@@ -69,11 +69,35 @@ impl GeneralizedAlpha {
     }
 }
 
+/// The step of a free oscillator as a matrix, for the tests of every scheme.
+#[cfg(test)]
+pub(super) mod amplification {
+    use super::GeneralizedAlpha;
+    use nalgebra::Matrix3;
+
+    /// Takes (d, dt v, dt^2 a) of a free oscillator over one step; `omega` is its frequency times dt.
+    pub(in crate::time) fn matrix(scheme: GeneralizedAlpha, omega: f64) -> Matrix3<f64> {
+        let GeneralizedAlpha { alpha_m, alpha_f, gamma, beta } = scheme;
+        let stiffness = omega * omega;
+        let inertia = 1.0 - alpha_m + stiffness * (1.0 - alpha_f) * beta;
+        let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|[d, v, a]| {
+            let predicted = d + v + (0.5 - beta) * a;
+            let new = -(alpha_m * a + stiffness * ((1.0 - alpha_f) * predicted + alpha_f * d)) / inertia;
+            [predicted + beta * new, v + (1.0 - gamma) * a + gamma * new, new]
+        });
+        Matrix3::from_fn(|i, j| columns[j][i])
+    }
+
+    pub(in crate::time) fn spectral_radius(matrix: Matrix3<f64>) -> f64 {
+        matrix.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use super::amplification::{self, spectral_radius};
     use super::*;
     use approx::assert_relative_eq;
-    use nalgebra::Matrix3;
 
     fn scheme(radius: f64) -> GeneralizedAlpha {
         GeneralizedAlpha::from_spectral_radius(radius).unwrap()
@@ -105,28 +129,15 @@ mod tests {
         }
     }
 
-    /// Takes (d, dt v, dt^2 a) of a free oscillator over one step; `omega` is its frequency times dt.
-    fn amplification(scheme: GeneralizedAlpha, omega: f64) -> Matrix3<f64> {
-        let GeneralizedAlpha { alpha_m, alpha_f, gamma, beta } = scheme;
-        let stiffness = omega * omega;
-        let inertia = 1.0 - alpha_m + stiffness * (1.0 - alpha_f) * beta;
-        let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|[d, v, a]| {
-            let predicted = d + v + (0.5 - beta) * a;
-            let new = -(alpha_m * a + stiffness * ((1.0 - alpha_f) * predicted + alpha_f * d)) / inertia;
-            [predicted + beta * new, v + (1.0 - gamma) * a + gamma * new, new]
-        });
-        Matrix3::from_fn(|i, j| columns[j][i])
-    }
-
-    fn spectral_radius(matrix: Matrix3<f64>) -> f64 {
-        matrix.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
-    }
-
     #[test]
     fn spectral_radius_at_infinite_frequency_is_the_one_asked_for() {
         for radius in [0.0, 0.25, 0.5, 0.8, 1.0] {
             // The eigenvalue there is double or triple, so that round-off enters by its square or cube root.
-            assert_relative_eq!(spectral_radius(amplification(scheme(radius), 1e9)), radius, epsilon = 1e-4);
+            assert_relative_eq!(
+                spectral_radius(amplification::matrix(scheme(radius), 1e9)),
+                radius,
+                epsilon = 1e-4
+            );
         }
     }
 
@@ -134,7 +145,7 @@ mod tests {
     fn no_frequency_is_amplified() {
         for radius in [0.0, 0.25, 0.5, 0.8, 1.0] {
             for omega in (-40..=80).map(|k| 10_f64.powf(f64::from(k) / 10.0)) {
-                let amplification = spectral_radius(amplification(scheme(radius), omega));
+                let amplification = spectral_radius(amplification::matrix(scheme(radius), omega));
                 // Towards infinity the eigenvalues meet: see above.
                 assert!(amplification < 1.0 + 1e-4, "{amplification} at {omega}, radius {radius}");
             }

@@ -1,15 +1,15 @@
-//! Generalized-alpha is of second order: linear vibrations against their exact solution, and a nonlinear one under a
+//! Generalized-alpha and Newmark with gamma = 1/2 are of second order: linear vibrations against their exact solution, and a nonlinear one under a
 //! load that rises smoothly.
 //!
 //! Steps of changing size: `a_n` is the acceleration of `t_n + (alpha_m - alpha_f) dt`, so that a step of another size
 //! takes it for one of another time. A change costs an error of second order, once; changes at every step add up to one
-//! of first order, except at radius 1, where both alphas are equal.
+//! of first order, except at radius 1 and in Newmark's method, where both alphas are equal.
 
 use partita_iga::Side;
 use partita_numerics::rates::fitted_order;
-use partita_structure::{BodyForce, Rayleigh, StructureModel, StructureSettings};
+use partita_structure::{BodyForce, Rayleigh, StructureModel, StructureSettings, TimeScheme};
 
-use crate::common::{RADII, bare, beam, dynamic, largest, linear, modes, solver, svk};
+use crate::common::{RADII, bare, beam, generalized_alpha, largest, linear, modes, solver, stepped_by, svk};
 
 /// How steps follow each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,11 +52,11 @@ impl Oscillator {
 }
 
 /// Largest errors over time in displacement and velocity, over their amplitudes, of a vibration in the two lowest modes.
-fn vibration_errors(radius: f64, steps: usize, sizes: Sizes, rayleigh: Rayleigh) -> [f64; 2] {
+fn vibration_errors(scheme: TimeScheme, steps: usize, sizes: Sizes, rayleigh: Rayleigh) -> [f64; 2] {
     let model = StructureModel { clamped: vec![Side::LEFT], ..bare(linear(100.0, 0.3)) };
     let patch = beam(1.0, 0.2, 2, 4);
     let (frequencies, shapes) = modes(&patch, &model);
-    let settings = StructureSettings { rayleigh: Some(rayleigh), ..dynamic(radius) };
+    let settings = StructureSettings { rayleigh: Some(rayleigh), ..stepped_by(scheme) };
     let mut solver = solver(patch, model, settings);
     let free = solver.parts()[0].dofs.clone();
     // Shape of unit size times amplitude; the second mode is fast and small.
@@ -95,10 +95,10 @@ fn vibration_errors(radius: f64, steps: usize, sizes: Sizes, rayleigh: Rayleigh)
 }
 
 /// Orders of displacement and velocity in a linear vibration.
-fn vibration_orders(radius: f64, sizes: Sizes, rayleigh: Rayleigh) -> [f64; 2] {
+fn vibration_orders(scheme: TimeScheme, sizes: Sizes, rayleigh: Rayleigh) -> [f64; 2] {
     let steps = [120, 240, 480];
-    let errors = steps.map(|steps| vibration_errors(radius, steps, sizes, rayleigh));
-    println!("radius {radius}, {sizes:?}, {rayleigh:?}: {errors:?}");
+    let errors = steps.map(|steps| vibration_errors(scheme, steps, sizes, rayleigh));
+    println!("{scheme:?}, {sizes:?}, {rayleigh:?}: {errors:?}");
     assert!(errors[2][0] < 1e-2 && errors[2][1] < 1e-2);
     [0, 1].map(|part| fitted_order(&steps.map(|steps| 1.0 / steps as f64), &errors.map(|error| error[part])))
 }
@@ -106,13 +106,18 @@ fn vibration_orders(radius: f64, sizes: Sizes, rayleigh: Rayleigh) -> [f64; 2] {
 const UNDAMPED: Rayleigh = Rayleigh { mass: 0.0, stiffness: 0.0 };
 const DAMPED: Rayleigh = Rayleigh { mass: 0.3, stiffness: 0.01 };
 
+fn second_order_schemes() -> [TimeScheme; 4] {
+    let [a, b, c] = RADII.map(generalized_alpha);
+    [a, b, c, TimeScheme::AVERAGE_ACCELERATION]
+}
+
 #[test]
 fn linear_vibrations_converge_with_second_order_damped_or_not() {
-    for radius in RADII {
+    for scheme in second_order_schemes() {
         for (sizes, rayleigh) in
             [(Sizes::Equal, UNDAMPED), (Sizes::Equal, DAMPED), (Sizes::HalvedOnce, DAMPED)]
         {
-            let orders = vibration_orders(radius, sizes, rayleigh);
+            let orders = vibration_orders(scheme, sizes, rayleigh);
             println!("orders {orders:.3?}");
             assert!(orders.into_iter().all(|order| (order - 2.0).abs() < 0.1), "{orders:?}");
         }
@@ -120,21 +125,31 @@ fn linear_vibrations_converge_with_second_order_damped_or_not() {
 }
 
 #[test]
-fn only_radius_one_keeps_second_order_if_the_size_changes_at_every_step() {
-    let [displacement, velocity] = vibration_orders(1.0, Sizes::Alternating, UNDAMPED);
-    assert!((displacement - 2.0).abs() < 0.1 && (velocity - 2.0).abs() < 0.1);
-    let [displacement, _] = vibration_orders(0.5, Sizes::Alternating, UNDAMPED);
+fn only_radius_one_and_newmark_keep_second_order_if_the_size_changes_at_every_step() {
+    for scheme in [generalized_alpha(1.0), TimeScheme::AVERAGE_ACCELERATION] {
+        let [displacement, velocity] = vibration_orders(scheme, Sizes::Alternating, UNDAMPED);
+        assert!((displacement - 2.0).abs() < 0.1 && (velocity - 2.0).abs() < 0.1);
+    }
+    let [displacement, _] = vibration_orders(generalized_alpha(0.5), Sizes::Alternating, UNDAMPED);
     assert!(displacement > 1.0 && displacement < 1.7, "{displacement}");
 }
 
+#[test]
+fn newmark_with_gamma_above_one_half_is_of_first_order() {
+    let scheme = TimeScheme::Newmark { beta: 0.3025, gamma: 0.6 };
+    for order in vibration_orders(scheme, Sizes::Equal, UNDAMPED) {
+        assert!((order - 1.0).abs() < 0.1, "order {order}");
+    }
+}
+
 /// A flexible cantilever under a load that rises from zero with zero slope, swinging far.
-fn swing(radius: f64, steps: usize) -> [f64; 2] {
+fn swing(scheme: TimeScheme, steps: usize) -> [f64; 2] {
     let model = StructureModel {
         clamped: vec![Side::LEFT],
         body_force: BodyForce::in_time(|t| [0.0, -9.0 * (1.0 - (1.5 * t).cos())]),
         ..bare(svk(3e3, 0.3))
     };
-    let mut solver = solver(beam(1.0, 0.1, 2, 6), model, dynamic(radius));
+    let mut solver = solver(beam(1.0, 0.1, 2, 6), model, stepped_by(scheme));
     for dt in Sizes::Equal.steps(1.0, steps) {
         solver.advance(solver.state().time + dt, dt).unwrap();
     }
@@ -146,14 +161,14 @@ fn swing(radius: f64, steps: usize) -> [f64; 2] {
 #[test]
 fn a_nonlinear_swing_converges_with_second_order_from_rest_without_an_initial_acceleration() {
     let steps = [160, 320, 640];
-    let reference = swing(0.8, 5120);
-    for radius in RADII {
+    let reference = swing(generalized_alpha(0.8), 5120);
+    for scheme in second_order_schemes() {
         let errors = steps.map(|steps| {
-            let tip = swing(radius, steps);
+            let tip = swing(scheme, steps);
             (tip[0] - reference[0]).hypot(tip[1] - reference[1])
         });
         let order = fitted_order(&steps.map(|steps| 1.0 / steps as f64), &errors);
-        println!("swing, radius {radius}: order {order:.3}, errors {errors:?}");
-        assert!((order - 2.0).abs() < 0.15, "radius {radius}: order {order}");
+        println!("swing, {scheme:?}: order {order:.3}, errors {errors:?}");
+        assert!((order - 2.0).abs() < 0.15, "{scheme:?}: order {order}");
     }
 }

@@ -26,7 +26,15 @@ pub(crate) fn quasi_static() -> StructureSettings {
 }
 
 pub(crate) fn dynamic(spectral_radius: f64) -> StructureSettings {
-    StructureSettings { time: TimeScheme::GeneralizedAlpha { spectral_radius }, ..Default::default() }
+    stepped_by(generalized_alpha(spectral_radius))
+}
+
+pub(crate) fn generalized_alpha(spectral_radius: f64) -> TimeScheme {
+    TimeScheme::GeneralizedAlpha { spectral_radius }
+}
+
+pub(crate) fn stepped_by(time: TimeScheme) -> StructureSettings {
+    StructureSettings { time, ..Default::default() }
 }
 
 pub(crate) fn solver<const D: usize>(

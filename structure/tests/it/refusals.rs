@@ -3,10 +3,10 @@
 use partita_iga::{Knots, Side, Spline, build};
 use partita_structure::{
     Law, LineSearch, Material, Plane, Rayleigh, Space, StructureError, StructureModel, StructureSettings,
-    StructureSolver,
+    StructureSolver, TimeScheme,
 };
 
-use crate::common::{bare, beam, dynamic, quasi_static, svk};
+use crate::common::{bare, beam, dynamic, quasi_static, stepped_by, svk};
 
 fn refusal<const D: usize>(
     patch: Spline<D>,
@@ -28,6 +28,10 @@ fn numbers_out_of_range_are_refused() {
     }
     let error = refusal(patch(), model(), dynamic(1.2));
     assert!(matches!(error, StructureError::SpectralRadius(_)), "{error}");
+    for (beta, gamma) in [(0.25, 0.4), (0.1, 0.5)] {
+        let error = refusal(patch(), model(), stepped_by(TimeScheme::Newmark { beta, gamma }));
+        assert!(matches!(error, StructureError::Newmark(_)), "{error}");
+    }
     let rayleigh = Some(Rayleigh { mass: -1.0, stiffness: 0.0 });
     let error = refusal(patch(), model(), StructureSettings { rayleigh, ..quasi_static() });
     assert!(matches!(error, StructureError::Damping { .. }), "{error}");

@@ -2,17 +2,18 @@
 
 use partita_iga::{Side, Spline};
 use partita_numerics::newton::Problem;
-use partita_structure::{Law, Material, Plane, Rayleigh, StructureSettings, StructureSolver};
+use partita_structure::{Law, Material, Plane, Rayleigh, StructureSettings, StructureSolver, TimeScheme};
 
 use crate::common::{
     Weights, bare, dense_tangent, distorted_cube, distorted_square, dynamic, largest, noise, quasi_static,
-    solver,
+    solver, stepped_by,
 };
 
 fn settings() -> Vec<StructureSettings> {
     let damped =
         |settings| StructureSettings { rayleigh: Some(Rayleigh { mass: 0.4, stiffness: 0.03 }), ..settings };
-    vec![quasi_static(), dynamic(0.3), damped(quasi_static()), damped(dynamic(0.8))]
+    let newmark = stepped_by(TimeScheme::AVERAGE_ACCELERATION);
+    vec![quasi_static(), dynamic(0.3), damped(quasi_static()), damped(dynamic(0.8)), damped(newmark)]
 }
 
 /// A solver in the middle of a step, away from rest and from the start of the step.

@@ -1,9 +1,9 @@
 //! Frequencies, energies and damping of linear vibrations.
 
 use partita_iga::Side;
-use partita_structure::{Plane, StructureModel, StructureSolver};
+use partita_structure::{Plane, StructureModel, StructureSolver, TimeScheme};
 
-use crate::common::{RADII, bare, beam, dynamic, linear, modes, solver};
+use crate::common::{RADII, bare, beam, generalized_alpha, linear, modes, solver, stepped_by};
 
 #[test]
 fn the_lowest_frequencies_of_a_clamped_beam_are_those_of_beam_theory() {
@@ -23,11 +23,11 @@ fn the_lowest_frequencies_of_a_clamped_beam_are_those_of_beam_theory() {
 }
 
 /// A short cantilever of linear material, released from a bent state.
-fn released(spectral_radius: f64) -> (StructureSolver<2>, f64) {
+fn released(scheme: TimeScheme) -> (StructureSolver<2>, f64) {
     let model = StructureModel { clamped: vec![Side::LEFT], ..bare(linear(100.0, 0.3)) };
     let patch = beam(1.0, 0.2, 2, 4);
     let (frequencies, shapes) = modes(&patch, &model);
-    let mut solver = solver(patch, model, dynamic(spectral_radius));
+    let mut solver = solver(patch, model, stepped_by(scheme));
     let mut state = solver.state().clone();
     for (equation, &dof) in solver.parts()[0].dofs.iter().enumerate() {
         state.displacement[dof] = 0.1 * shapes[0][equation] + 0.03 * shapes[3][equation];
@@ -41,17 +41,28 @@ fn energy(solver: &StructureSolver<2>) -> f64 {
     solver.kinetic_energy() + solver.strain_energy()
 }
 
+/// Over the energy at the start.
+fn energy_after_500_steps(scheme: TimeScheme) -> f64 {
+    let (mut solver, frequency) = released(scheme);
+    let dt = 0.3 / frequency;
+    let start = energy(&solver);
+    for step in 1..=500 {
+        solver.advance(f64::from(step) * dt, dt).unwrap();
+    }
+    energy(&solver) / start
+}
+
+#[test]
+fn average_acceleration_keeps_the_energy_of_a_linear_vibration_and_a_larger_gamma_loses_it() {
+    let kept = energy_after_500_steps(TimeScheme::AVERAGE_ACCELERATION);
+    assert!((kept - 1.0).abs() < 1e-9, "{kept}");
+    let lost = energy_after_500_steps(TimeScheme::Newmark { beta: 0.3025, gamma: 0.6 });
+    assert!(lost < 0.1, "{lost}");
+}
+
 #[test]
 fn radius_one_keeps_the_energy_of_a_linear_vibration_and_smaller_radii_lose_it() {
-    let after = RADII.map(|radius| {
-        let (mut solver, frequency) = released(radius);
-        let dt = 0.3 / frequency;
-        let start = energy(&solver);
-        for step in 1..=500 {
-            solver.advance(f64::from(step) * dt, dt).unwrap();
-        }
-        energy(&solver) / start
-    });
+    let after = RADII.map(|radius| energy_after_500_steps(generalized_alpha(radius)));
     println!("energy after 500 steps at radius 0, 0.5, 1: {after:?}");
     assert!((after[2] - 1.0).abs() < 1e-9, "{after:?}");
     assert!(after[0] < after[1] && after[1] < 0.9, "{after:?}");
@@ -60,7 +71,7 @@ fn radius_one_keeps_the_energy_of_a_linear_vibration_and_smaller_radii_lose_it()
 #[test]
 fn the_highest_frequencies_decay_by_the_spectral_radius() {
     for radius in [0.0, 0.5, 0.8] {
-        let (mut solver, _) = released(radius);
+        let (mut solver, _) = released(generalized_alpha(radius));
         // Steps so long that every mode is at its limit of infinite frequency.
         let dt = 1e6;
         let mut norms = vec![];

@@ -4,7 +4,8 @@ use partita_numerics::scatter::add_vector;
 use partita_numerics::{Connectivity, DofMap, Pattern, Scatter};
 
 use crate::elements::Elements;
-use crate::kernel::{self, Blocks};
+use crate::error::StructureError;
+use crate::kernel::{self, Blocks, PointError};
 use crate::material::Material;
 use crate::model::Rayleigh;
 use crate::step::TangentWeights;
@@ -58,6 +59,9 @@ pub(crate) struct Assembly<const D: usize> {
     mass: Vec<f64>,
 }
 
+/// Why the material of `K_0` cannot fail.
+const HOOKE: &str = "Hooke's law has a stress for every strain";
+
 /// Rayleigh damping, C = mass M + stiffness `K_0`.
 struct Damping {
     rayleigh: Rayleigh,
@@ -110,7 +114,8 @@ impl<const D: usize> Assembly<D> {
                 force,
                 matrix,
                 blocks,
-            );
+            )
+            .expect(HOOKE);
         });
         for (c, m) in matrix.iter_mut().zip(&self.mass) {
             *c += rayleigh.mass * m;
@@ -143,13 +148,15 @@ impl<const D: usize> Assembly<D> {
     }
 
     /// Forces of `motion` on all dofs and, where asked for, the tangent mass M + damping C + stiffness K(d).
+    ///
+    /// Fails where the material has no stress for the displacement; forces and tangent are then incomplete.
     pub(crate) fn evaluate(
         &self,
         motion: &Motion,
         mut tangent: Option<Tangent>,
         local: &mut Local<D>,
         forces: &mut Forces,
-    ) {
+    ) -> Result<(), StructureError> {
         forces.clear();
         if let Some(tangent) = &mut tangent {
             self.start_tangent(tangent);
@@ -157,9 +164,9 @@ impl<const D: usize> Assembly<D> {
         for e in 0..self.elements.len() {
             local.gather(self.elements.nodes(e), &motion.displacement);
             match &mut tangent {
-                None => self.internal_force(e, local),
+                None => self.internal_force(e, local)?,
                 Some(Tangent { weights, values }) => {
-                    self.internal_force_and_tangent(e, weights.stiffness, local);
+                    self.internal_force_and_tangent(e, weights.stiffness, local)?;
                     self.scatter.add_matrix(e, &local.matrix, values);
                 }
             }
@@ -167,6 +174,7 @@ impl<const D: usize> Assembly<D> {
             self.add_inertia(e, motion, local, forces);
             self.add_damping(e, motion, local, forces);
         }
+        Ok(())
     }
 
     /// `(N_a, 1)` of every node `[m^D]`.
@@ -217,11 +225,17 @@ impl<const D: usize> Assembly<D> {
         }
     }
 
-    fn internal_force(&self, e: usize, local: &mut Local<D>) {
-        kernel::add_internal_force(self.elements.element(e), &self.material, &local.field, &mut local.force);
+    fn internal_force(&self, e: usize, local: &mut Local<D>) -> Result<(), StructureError> {
+        kernel::add_internal_force(self.elements.element(e), &self.material, &local.field, &mut local.force)
+            .map_err(|error| self.deformed_too_far(e, error))
     }
 
-    fn internal_force_and_tangent(&self, e: usize, scale: f64, local: &mut Local<D>) {
+    fn internal_force_and_tangent(
+        &self,
+        e: usize,
+        scale: f64,
+        local: &mut Local<D>,
+    ) -> Result<(), StructureError> {
         let Local { field, force, matrix, blocks } = local;
         kernel::add_internal_force_and_tangent(
             self.elements.element(e),
@@ -231,7 +245,16 @@ impl<const D: usize> Assembly<D> {
             force,
             matrix,
             blocks,
-        );
+        )
+        .map_err(|error| self.deformed_too_far(e, error))
+    }
+
+    fn deformed_too_far(&self, element: usize, PointError { point, source }: PointError) -> StructureError {
+        StructureError::DeformedTooFar {
+            element,
+            place: self.elements.places(element)[point].to_vec(),
+            source,
+        }
     }
 
     fn add_inertia(&self, e: usize, motion: &Motion, local: &mut Local<D>, forces: &mut Forces) {
@@ -249,7 +272,7 @@ impl<const D: usize> Assembly<D> {
             kernel::add_inertia(element, mass * self.density, &local.field, &mut local.force);
             // K_0 v is the internal force of the linear material at the displacement v.
             local.field.as_flattened_mut().iter_mut().for_each(|v| *v *= stiffness);
-            kernel::add_internal_force(element, linearized, &local.field, &mut local.force);
+            kernel::add_internal_force(element, linearized, &local.field, &mut local.force).expect(HOOKE);
             add_vector(&self.connectivity, e, local.force.as_flattened(), &mut forces.damping);
         }
     }

@@ -4,6 +4,8 @@ use partita_iga::Side;
 use partita_numerics::FactorError;
 use partita_numerics::time::{NewmarkError, SpectralRadiusError};
 
+use crate::material::ResponseError;
+
 /// A structure that cannot be built, solved or restored.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StructureError {
@@ -72,6 +74,19 @@ pub enum StructureError {
         place: Vec<f64>,
         /// Determinant of dx/dxi there.
         determinant: f64,
+    },
+    /// The material has no stress for the deformation at a quadrature point.
+    #[error(
+        "element {element} is deformed too far near {place:?} m (undeformed): {source}\n\
+         hint: take smaller steps in time or load, switch the line search on, or refine there"
+    )]
+    DeformedTooFar {
+        /// The element.
+        element: usize,
+        /// The quadrature point in the reference configuration `[m]`.
+        place: Vec<f64>,
+        /// What is wrong there.
+        source: ResponseError,
     },
     /// Nothing is left to move.
     #[error("every control point is clamped\nhint: leave at least one side free, or refine the patch")]

@@ -6,9 +6,9 @@
 //!
 //! with the first Piola-Kirchhoff stress P = F S (Total Lagrangian). The functions know neither the mesh nor the
 //! time integration; nodal fields are slices with one `[f64; D]` a node, results are *added* to the slices given. A
-//! field of another length is a panic.
+//! field of another length is a panic; a deformation that the material has no stress for is a [`PointError`].
 
-use crate::material::Material;
+use crate::material::{Material, ResponseError};
 use crate::tensor::{self, Tensor};
 
 /// One element as quadrature sees it; it lives in the reference configuration and never changes.
@@ -28,6 +28,16 @@ struct Point<'a, const D: usize> {
     weight: f64,
     values: &'a [f64],
     gradients: &'a [[f64; D]],
+}
+
+/// A quadrature point at which the material has no stress.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("quadrature point {point}: {source}")]
+pub struct PointError {
+    /// Its number within the element.
+    pub point: usize,
+    /// Why.
+    pub source: ResponseError,
 }
 
 /// Room for the blocks of one tangent; belongs to the caller, so that the kernel allocates nothing.
@@ -139,18 +149,26 @@ impl<const D: usize> Point<'_, D> {
 /// Internal forces: `force_a += (grad N_a, P(grad d))`.
 ///
 /// `displacement` `[m]` and `force` `[N, in 2D N/m]` hold one entry a node.
+///
+/// # Errors
+/// When the material has no stress at a quadrature point; `force` is then incomplete.
 pub fn add_internal_force<const D: usize>(
     element: Element<D>,
     material: &Material,
     displacement: &[[f64; D]],
     force: &mut [[f64; D]],
-) {
+) -> Result<(), PointError> {
     element.assert_fits(displacement);
     element.assert_fits(force);
-    for point in element.points() {
-        let stress = material.stress(&point.gradient(displacement));
+    for (number, point) in element.points().enumerate() {
+        let stress = material.stress(&point.gradient(displacement)).map_err(at(number))?;
         point.add_stress(&stress, force);
     }
+    Ok(())
+}
+
+fn at(point: usize) -> impl Fn(ResponseError) -> PointError {
+    move |source| PointError { point, source }
 }
 
 /// Internal forces, and their derivative by the displacement: with A = dP/d(grad d) of [`crate::Response`],
@@ -162,6 +180,9 @@ pub fn add_internal_force<const D: usize>(
 ///
 /// `tangent` is overwritten, row-major over the local dofs `a * D + i`, exactly symmetric; `scale` is the share of the
 /// unknown in the displacement given (`1 - alpha_f` in generalized-alpha).
+///
+/// # Errors
+/// When the material has no stress at a quadrature point; `force` and `tangent` are then incomplete.
 pub fn add_internal_force_and_tangent<const D: usize>(
     element: Element<D>,
     material: &Material,
@@ -170,13 +191,13 @@ pub fn add_internal_force_and_tangent<const D: usize>(
     force: &mut [[f64; D]],
     tangent: &mut [f64],
     blocks: &mut Blocks<D>,
-) {
+) -> Result<(), PointError> {
     element.assert_fits(displacement);
     element.assert_fits(force);
     blocks.blocks.fill([[0.0; D]; D]);
-    for point in element.points() {
-        let at = material.response(&point.gradient(displacement));
-        point.add_stress(&at.stress, force);
+    for (number, point) in element.points().enumerate() {
+        let response = material.response(&point.gradient(displacement)).map_err(at(number))?;
+        point.add_stress(&response.stress, force);
 
         let weight = scale * point.weight;
         let mut column = blocks.blocks.as_mut_slice();
@@ -185,7 +206,7 @@ pub fn add_internal_force_and_tangent<const D: usize>(
             let mut stress_b = [[[0.0; D]; D]; D];
             for j in 0..D {
                 for l in 0..D {
-                    tensor::add_scaled(weight * gradient_b[l], &at.tangent[j][l], &mut stress_b[j]);
+                    tensor::add_scaled(weight * gradient_b[l], &response.tangent[j][l], &mut stress_b[j]);
                 }
             }
             let (upper, rest) = column.split_at_mut(b + 1);
@@ -198,6 +219,7 @@ pub fn add_internal_force_and_tangent<const D: usize>(
         }
     }
     blocks.expand(element.nodes(), tangent);
+    Ok(())
 }
 
 /// Inertia: `force_a += (N_a, rho a)`.
@@ -325,12 +347,13 @@ mod tests {
             &mut force,
             &mut tangent,
             &mut blocks,
-        );
+        )
+        .unwrap();
         for column in 0..6 {
             let force_at = |step: f64| {
                 let (mut moved, mut force) = (d, [[0.0; 2]; 3]);
                 moved[column / 2][column % 2] += step;
-                add_internal_force(triangle.element(), &soft(), &moved, &mut force);
+                add_internal_force(triangle.element(), &soft(), &moved, &mut force).unwrap();
                 force
             };
             let (ahead, behind) = (force_at(1e-5), force_at(-1e-5));
@@ -347,7 +370,7 @@ mod tests {
         let triangle = Triangle::new();
         let d = [[0.1, -0.2], [0.3, 0.4], [-0.25, 0.15]];
         let (mut alone, mut together) = ([[0.0; 2]; 3], [[0.0; 2]; 3]);
-        add_internal_force(triangle.element(), &soft(), &d, &mut alone);
+        add_internal_force(triangle.element(), &soft(), &d, &mut alone).unwrap();
         let mut blocks = Blocks::new(3);
         add_internal_force_and_tangent(
             triangle.element(),
@@ -357,7 +380,8 @@ mod tests {
             &mut together,
             &mut [0.0; 36],
             &mut blocks,
-        );
+        )
+        .unwrap();
         assert_eq!(alone, together);
     }
 

@@ -38,7 +38,7 @@ mod tensor;
 
 pub use error::StructureError;
 pub use load::{BodyForce, VectorField};
-pub use material::{Law, Material, MaterialError, Plane, Response};
+pub use material::{Law, Material, MaterialError, Plane, Response, ResponseError};
 pub use model::{LineSearch, Part, Rayleigh, StructureModel, StructureSettings};
 pub use solver::StructureSolver;
 pub use space::Space;

@@ -1,8 +1,11 @@
 //! Isotropic elastic laws: stress, tangent and stored energy from the displacement gradient.
 
+mod neo_hookean;
+
 use serde::{Deserialize, Serialize};
 
 use crate::tensor::{self, Tensor};
+use neo_hookean::NeoHookean;
 
 /// The relation between deformation and stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -12,6 +15,10 @@ pub enum Law {
     LinearElastic,
     /// Hooke's law on the Green-Lagrange strain: S = lambda tr(E) I + 2 mu E, E = (F^T F - I)/2.
     StVenantKirchhoff,
+    /// The compressible neo-Hookean solid: S = mu (I - C^-1) + lambda ln J C^-1, C = F^T F, J = det F > 0
+    /// (Bonet and Wood 2008, section 6.4.3). Unlike the other laws it resists being crushed: its energy grows without
+    /// bound as J -> 0.
+    NeoHookean,
 }
 
 /// What a plane model assumes about the direction it leaves out.
@@ -45,10 +52,27 @@ pub enum MaterialError {
     },
 }
 
+/// A deformation that a material has no stress for.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum ResponseError {
+    /// A neo-Hookean solid is flattened or turned inside out.
+    #[error("the volume ratio det F is {volume_ratio:.3e}, which is not positive")]
+    Crushed {
+        /// J = det F, NaN where the displacement is no number.
+        volume_ratio: f64,
+    },
+    /// No stretch out of the plane makes the stress there vanish: possible for a negative Poisson's ratio.
+    #[error("no thickness frees the sheet of stress out of its plane at the area ratio {area_ratio:.3e}")]
+    NoPlaneStress {
+        /// det F in the plane.
+        area_ratio: f64,
+    },
+}
+
 /// An isotropic elastic material.
 ///
-/// Plane stress replaces lambda by 2 lambda mu/(lambda + 2 mu): both laws are linear between a strain and its
-/// stress, so `S_33 = 0` is solved for `E_33` once and for all.
+/// Plane stress replaces lambda by 2 lambda mu/(lambda + 2 mu) in the two laws that are linear between a strain and its
+/// stress, so that `S_33 = 0` is solved for `E_33` once and for all. The neo-Hookean law solves it at each point.
 ///
 /// ```
 /// use partita_structure::{Law, Material, Plane};
@@ -64,6 +88,8 @@ pub struct Material {
     young_modulus: f64,
     poisson_ratio: f64,
     lambda: f64,
+    /// lambda of the solid, whatever the plane.
+    solid_lambda: f64,
     mu: f64,
 }
 
@@ -96,11 +122,12 @@ impl Material {
         }
         let (e, nu) = (young_modulus, poisson_ratio);
         let mu = e / (2.0 * (1.0 + nu));
+        let solid_lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
         let lambda = match plane {
-            Plane::Strain => e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+            Plane::Strain => solid_lambda,
             Plane::Stress => e * nu / (1.0 - nu * nu),
         };
-        Ok(Self { law, plane, young_modulus, poisson_ratio, lambda, mu })
+        Ok(Self { law, plane, young_modulus, poisson_ratio, lambda, solid_lambda, mu })
     }
 
     /// The relation between deformation and stress.
@@ -127,7 +154,7 @@ impl Material {
         self.poisson_ratio
     }
 
-    /// First Lamé constant `[Pa]`; in plane stress the reduced one.
+    /// First Lamé constant `[Pa]`; in plane stress the reduced one, which holds for small strains.
     #[must_use]
     pub fn lambda(&self) -> f64 {
         self.lambda
@@ -151,11 +178,15 @@ impl Material {
     /// ```text
     /// linear elastic         P = sigma   A_iJkL = lambda delta_iJ delta_kL + mu (delta_iL delta_kJ + delta_ik delta_JL)
     /// St. Venant-Kirchhoff   P = F S     A_iJkL = delta_ik S_JL + lambda F_iJ F_kL + mu (F_iL F_kJ + (F F^T)_ik delta_JL)
+    /// neo-Hookean            P = F S     A_iJkL = mu delta_ik delta_JL + (mu - lambda ln J) F^-1_Jk F^-1_Li
+    ///                                             + lambda F^-1_Ji F^-1_Lk
     /// ```
+    ///
+    /// # Errors
+    /// When the law is neo-Hookean and J is not positive, or a sheet cannot free itself of stress out of its plane.
     #[inline]
-    #[must_use]
-    pub fn response<const D: usize>(&self, gradient: &Tensor<D>) -> Response<D> {
-        match self.law {
+    pub fn response<const D: usize>(&self, gradient: &Tensor<D>) -> Result<Response<D>, ResponseError> {
+        Ok(match self.law {
             Law::LinearElastic => {
                 let (one, zero) = (tensor::identity(), [[0.0; D]; D]);
                 let stress = self.hooke(&small_strain(gradient));
@@ -170,29 +201,39 @@ impl Material {
                     tangent: self.tangent(&f, &left_cauchy_green, &s),
                 }
             }
-        }
+            Law::NeoHookean => self.neo_hookean().response(gradient)?,
+        })
     }
 
     /// First Piola-Kirchhoff stress P `[Pa]` alone.
+    ///
+    /// # Errors
+    /// As [`response`](Self::response).
     #[inline]
-    #[must_use]
-    pub fn stress<const D: usize>(&self, gradient: &Tensor<D>) -> Tensor<D> {
-        match self.law {
+    pub fn stress<const D: usize>(&self, gradient: &Tensor<D>) -> Result<Tensor<D>, ResponseError> {
+        Ok(match self.law {
             Law::LinearElastic => self.hooke(&small_strain(gradient)),
             Law::StVenantKirchhoff => {
                 tensor::multiply(&deformation_gradient(gradient), &self.hooke(&green_lagrange(gradient)))
             }
-        }
+            Law::NeoHookean => self.neo_hookean().stress(gradient)?,
+        })
     }
 
-    /// Stored energy per reference volume, W = lambda/2 tr(E)^2 + mu E:E `[J/m^3]`.
+    /// Stored energy per reference volume `[J/m^3]`: W = lambda/2 tr(E)^2 + mu E:E, and for the neo-Hookean solid
+    /// W = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2, which is infinite where it is crushed.
     #[must_use]
     pub fn energy<const D: usize>(&self, gradient: &Tensor<D>) -> f64 {
         let strain = match self.law {
             Law::LinearElastic => small_strain(gradient),
             Law::StVenantKirchhoff => green_lagrange(gradient),
+            Law::NeoHookean => return self.neo_hookean().energy(gradient),
         };
         0.5 * self.lambda * tensor::trace(&strain).powi(2) + self.mu * tensor::contract(&strain, &strain)
+    }
+
+    fn neo_hookean(&self) -> NeoHookean {
+        NeoHookean { lambda: self.solid_lambda, mu: self.mu, is_sheet: self.plane == Plane::Stress }
     }
 
     /// `A_iJkL = delta_ik S_JL + lambda F_iJ F_kL + mu (F_iL F_kJ + B_ik delta_JL)`
@@ -249,7 +290,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    const LAWS: [Law; 2] = [Law::LinearElastic, Law::StVenantKirchhoff];
+    const LAWS: [Law; 3] = [Law::LinearElastic, Law::StVenantKirchhoff, Law::NeoHookean];
     const PLANES: [Plane; 2] = [Plane::Strain, Plane::Stress];
 
     fn materials() -> impl Iterator<Item = Material> {
@@ -273,8 +314,8 @@ mod tests {
     fn stress_derives_from_energy<const D: usize>() {
         let gradient = some_gradient::<D>();
         for material in materials() {
-            let stress = material.response(&gradient).stress;
-            assert_eq!(stress, material.stress(&gradient));
+            let stress = material.response(&gradient).unwrap().stress;
+            assert_eq!(stress, material.stress(&gradient).unwrap());
             for k in 0..D {
                 for l in 0..D {
                     let energy = |step| material.energy(&moved(&gradient, k, l, step));
@@ -288,10 +329,10 @@ mod tests {
     fn tangent_derives_from_stress<const D: usize>() {
         let gradient = some_gradient::<D>();
         for material in materials() {
-            let r = material.response(&gradient);
+            let r = material.response(&gradient).unwrap();
             for k in 0..D {
                 for l in 0..D {
-                    let stress = |step| material.stress(&moved(&gradient, k, l, step));
+                    let stress = |step| material.stress(&moved(&gradient, k, l, step)).unwrap();
                     let (ahead, behind) = (stress(1e-5), stress(-1e-5));
                     for i in 0..D {
                         for j in 0..D {
@@ -330,7 +371,7 @@ mod tests {
                     gradient[i][..2].copy_from_slice(&plane[i]);
                 }
                 gradient[2][2] = out_of_plane;
-                solid.stress(&gradient)
+                solid.stress(&gradient).unwrap()
             };
             let strain_state = in_space(0.0);
             // Plane stress: the stretch out of the plane at which P_33 vanishes, by bisection.
@@ -341,7 +382,7 @@ mod tests {
             }
             let stress_state = in_space(low);
             let sheet = Material::new(law, 7.0, 0.3, Plane::Stress).unwrap();
-            let (strained, stressed) = (solid.stress(&plane), sheet.stress(&plane));
+            let (strained, stressed) = (solid.stress(&plane).unwrap(), sheet.stress(&plane).unwrap());
             for i in 0..2 {
                 for j in 0..2 {
                     assert_relative_eq!(strained[i][j], strain_state[i][j], epsilon = 1e-13);
@@ -352,9 +393,48 @@ mod tests {
     }
 
     #[test]
+    fn every_law_is_hookes_law_for_small_strains() {
+        let gradient: Tensor<2> = some_gradient().map(|row| row.map(|h| 1e-7 * h));
+        for material in materials() {
+            let (found, hooke) =
+                (material.response(&gradient).unwrap(), material.linearized().response(&gradient).unwrap());
+            for i in 0..2 {
+                for j in 0..2 {
+                    assert_relative_eq!(found.stress[i][j], hooke.stress[i][j], epsilon = 3e-13);
+                    for (a, b) in
+                        found.tangent[i][j].as_flattened().iter().zip(hooke.tangent[i][j].as_flattened())
+                    {
+                        assert_relative_eq!(a, b, epsilon = 1e-5);
+                    }
+                }
+            }
+            let energy = material.energy(&gradient) / material.linearized().energy(&gradient);
+            assert_relative_eq!(energy, 1.0, epsilon = 1e-6);
+        }
+    }
+
+    #[test]
+    fn turning_the_body_turns_the_stress_of_the_nonlinear_laws() {
+        let (sin, cos) = 1.9_f64.sin_cos();
+        let turn = [[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]];
+        let gradient: Tensor<3> = some_gradient();
+        for law in [Law::StVenantKirchhoff, Law::NeoHookean] {
+            let material = Material::new(law, 7.0, 0.3, Plane::Strain).unwrap();
+            let f = tensor::multiply(&turn, &deformation_gradient(&gradient));
+            let turned: Tensor<3> = tensor::build(|i, j| f[i][j] - if i == j { 1.0 } else { 0.0 });
+            let expected = tensor::multiply(&turn, &material.stress(&gradient).unwrap());
+            let found = material.stress(&turned).unwrap();
+            for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
+                assert_relative_eq!(found, expected, epsilon = 1e-13);
+            }
+            assert_relative_eq!(material.energy(&turned), material.energy(&gradient), max_relative = 1e-13);
+        }
+    }
+
+    #[test]
     fn uniaxial_stress_is_young_modulus_times_stretch() {
         let material = Material::new(Law::LinearElastic, 5.0, 0.25, Plane::Stress).unwrap();
-        let stress = material.stress(&[[1e-3, 0.0], [0.0, -0.25e-3]]);
+        let stress = material.stress(&[[1e-3, 0.0], [0.0, -0.25e-3]]).unwrap();
         assert_relative_eq!(stress[0][0], 5e-3, max_relative = 1e-14);
         assert!(stress[1][1].abs() < 1e-17);
     }

@@ -16,10 +16,9 @@ impl<const D: usize> Problem for StructureSolver<D> {
     /// Relative is `|R| / max(|f_int|, |C v|, |M a|, |f_ext|)`, all over the free dofs, 0/0 = 0.
     fn assemble(&mut self, with_tangent: bool) -> Result<ResidualNorm, StructureError> {
         let watch = Stopwatch::start();
-        self.evaluate(with_tangent);
-        let residual = self.residual_norm();
+        let residual = self.evaluate(with_tangent).map(|()| self.residual_norm());
         watch.stop(&mut self.phases.assembly);
-        Ok(residual)
+        residual
     }
 
     fn solve_and_update(&mut self) -> Result<(), StructureError> {
@@ -44,7 +43,7 @@ impl<const D: usize> Problem for StructureSolver<D> {
 
 impl<const D: usize> StructureSolver<D> {
     /// Residual, and tangent where asked for, at the trial displacement.
-    fn evaluate(&mut self, with_tangent: bool) {
+    fn evaluate(&mut self, with_tangent: bool) -> Result<(), StructureError> {
         let step = *self.step();
         let (new, old) = (&self.trial, &self.committed);
         let Work { motion, forces, external, residual, tangent, local, .. } = &mut self.work;
@@ -54,10 +53,11 @@ impl<const D: usize> StructureSolver<D> {
         average(step.alpha_f(), &new.external_force, &old.external_force, external);
 
         let tangent = with_tangent.then(|| Tangent { weights: step.tangent_weights(), values: tangent });
-        self.assembly.evaluate(motion, tangent, local, forces);
+        self.assembly.evaluate(motion, tangent, local, forces)?;
         for dof in 0..residual.len() {
             residual[dof] = forces.inertia[dof] + forces.damping[dof] + forces.internal[dof] - external[dof];
         }
+        Ok(())
     }
 
     fn residual_norm(&self) -> ResidualNorm {
@@ -98,15 +98,16 @@ impl<const D: usize> StructureSolver<D> {
         }
     }
 
-    /// Moves to start + s delta and returns G(s) there.
+    /// Moves to start + s delta and returns G(s) there: no number where the material has no stress, so that the search
+    /// draws back from such steps.
     fn try_step(&mut self, s: f64) -> f64 {
         self.trial.displacement.copy_from_slice(&self.work.start);
         self.assembly.dofs().add_scaled(s, &self.work.increment, &mut self.trial.displacement);
         self.update_rates();
         let watch = Stopwatch::start();
-        self.evaluate(false);
+        let evaluated = self.evaluate(false);
         watch.stop(&mut self.phases.assembly);
-        self.work_along_increment()
+        evaluated.map_or(f64::NAN, |()| self.work_along_increment())
     }
 
     /// delta . R over the free dofs.

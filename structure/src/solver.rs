@@ -214,7 +214,7 @@ impl<const D: usize> StructureSolver<D> {
     /// `F_0` is set.
     ///
     /// # Errors
-    /// When the mass matrix cannot be factored.
+    /// When the mass matrix cannot be factored, or the material has no stress for `d_0`.
     pub fn start_from_equilibrium(&mut self, time: f64) -> Result<(), StructureError> {
         self.trial.copy_from(&self.committed);
         self.set_time(time);
@@ -345,7 +345,7 @@ impl<const D: usize> StructureSolver<D> {
         motion.displacement.copy_from_slice(&self.trial.displacement);
         motion.velocity.copy_from_slice(&self.trial.velocity);
         motion.acceleration.fill(0.0);
-        self.assembly.evaluate(motion, None, local, forces);
+        self.assembly.evaluate(motion, None, local, forces)?;
         for dof in 0..residual.len() {
             residual[dof] = self.trial.external_force[dof] - forces.internal[dof] - forces.damping[dof];
         }

@@ -23,7 +23,7 @@ fn exact_gradient([x, y]: [f64; 2]) -> [[f64; 2]; 2] {
 
 /// b = -Div P, by central differences of fourth order.
 fn body_force(material: &Material, [x, y]: [f64; 2]) -> [f64; 2] {
-    let stress = |dx: f64, dy: f64| material.stress(&exact_gradient([x + dx, y + dy]));
+    let stress = |dx: f64, dy: f64| material.stress(&exact_gradient([x + dx, y + dy])).unwrap();
     let h = 1e-3;
     std::array::from_fn(|i| {
         let slope = |f: &dyn Fn(f64) -> f64| (8.0 * (f(h) - f(-h)) - (f(2.0 * h) - f(-2.0 * h))) / (12.0 * h);

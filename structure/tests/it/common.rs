@@ -16,6 +16,10 @@ pub(crate) fn linear(young_modulus: f64, poisson_ratio: f64) -> Material {
     Material::new(Law::LinearElastic, young_modulus, poisson_ratio, Plane::Strain).unwrap()
 }
 
+pub(crate) fn neo_hookean(young_modulus: f64, poisson_ratio: f64) -> Material {
+    Material::new(Law::NeoHookean, young_modulus, poisson_ratio, Plane::Strain).unwrap()
+}
+
 /// A model of density 1 without loads, supports and interface.
 pub(crate) fn bare<const D: usize>(material: Material) -> StructureModel<D> {
     StructureModel { density: 1.0, material, body_force: BodyForce::NONE, clamped: vec![], wetted: vec![] }

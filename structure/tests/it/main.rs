@@ -4,6 +4,7 @@
 
 mod clamped_beam;
 mod common;
+mod crushed;
 mod interface;
 mod invariance;
 mod newton_loop;

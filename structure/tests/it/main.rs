@@ -5,6 +5,7 @@
 mod clamped_beam;
 mod common;
 mod crushed;
+mod energy;
 mod interface;
 mod invariance;
 mod newton_loop;

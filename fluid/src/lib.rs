@@ -27,6 +27,7 @@ mod error;
 mod force;
 pub mod kernel;
 pub mod model;
+mod probe;
 mod residual;
 pub mod settings;
 mod solver;

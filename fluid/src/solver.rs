@@ -66,6 +66,8 @@ pub struct FluidSolver<const D: usize> {
     /// The last Newton increment on all dofs.
     pub(crate) increment: Vec<f64>,
     pub(crate) phases: PhaseSeconds,
+    /// Volume defect of the last accepted step.
+    pub(crate) last_volume_defect: f64,
     parts: Vec<Part>,
 }
 
@@ -106,6 +108,7 @@ impl<const D: usize> FluidSolver<D> {
             parts: parts(&boundaries, &frames, &assembly),
             increment: vec![0.0; boundaries.prescribed.len()],
             phases: PhaseSeconds::default(),
+            last_volume_defect: 0.0,
             mesh,
             model,
             settings,

@@ -116,6 +116,7 @@ impl<const D: usize> FluidSolver<D> {
     ///
     /// Outside a step.
     pub fn commit(&mut self) {
+        self.last_volume_defect = self.volume_defect();
         let (time, dt) = self.trial.step.take().expect("commit ends a step that begin_step started");
         self.committed.advance(time, dt, &self.trial.values, &self.trial.displacement);
     }
@@ -131,7 +132,7 @@ impl<const D: usize> FluidSolver<D> {
         self.committed.clone()
     }
 
-    /// Continues from a state, bit for bit.
+    /// Continues from a state, bit for bit. The volume defect of the step before it is not part of it.
     ///
     /// # Errors
     ///
@@ -139,6 +140,7 @@ impl<const D: usize> FluidSolver<D> {
     pub fn restore(&mut self, state: &FluidState) -> Result<(), FluidError> {
         self.committed.check_fits(state)?;
         self.committed.clone_from(state);
+        self.last_volume_defect = 0.0;
         self.rewind();
         Ok(())
     }

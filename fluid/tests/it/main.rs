@@ -10,5 +10,6 @@ mod exact;
 mod interface;
 mod kernel;
 mod newton;
+mod probe;
 mod state;
 mod tangent;

@@ -1,0 +1,103 @@
+//! What to read off a fluid: energy, flow rates, the balance of volume.
+
+use partita_mesh::{Facet, simplex};
+use partita_numerics::small::dot;
+
+use crate::error::FluidError;
+use crate::solver::FluidSolver;
+use crate::trial::volume;
+
+/// Net flux of a closed domain relative to what passes its boundary that still counts as balanced.
+const BALANCED: f64 = 1e-8;
+
+impl<const D: usize> FluidSolver<D> {
+    /// Kinetic energy of the latest iterate on the present mesh `[J/m in 2D, J in 3D]`:
+    ///
+    /// ```text
+    /// rho/2 (u, u)
+    /// ```
+    ///
+    /// integrated exactly, as in [`kernel`](crate::kernel).
+    #[must_use]
+    pub fn kinetic_energy(&self) -> f64 {
+        let velocity =
+            |node: usize| -> [f64; D] { std::array::from_fn(|i| self.trial.values[node * (D + 1) + i]) };
+        let mut sum = 0.0;
+        for nodes in self.mesh.cells() {
+            let measure = simplex::measure(&simplex::vertices(&self.trial.points, nodes));
+            let (mut total, mut squares) = ([0.0; D], 0.0);
+            for &node in nodes {
+                let u = velocity(node);
+                squares += dot(&u, &u);
+                for i in 0..D {
+                    total[i] += u[i];
+                }
+            }
+            sum += measure / ((D + 1) * (D + 2)) as f64 * (squares + dot(&total, &total));
+        }
+        0.5 * self.model.density * sum
+    }
+
+    /// Fluid that leaves through the boundary group of that name, of the latest iterate on the present mesh
+    /// `[m^2/s in 2D, m^3/s in 3D]`; nothing for a name that is no group:
+    ///
+    /// ```text
+    /// sum over its facets of (u - w, n)
+    /// ```
+    ///
+    /// Through a boundary that moves with the fluid nothing flows.
+    #[must_use]
+    pub fn flow_rate(&self, group: &str) -> Option<f64> {
+        let facets = &self.mesh.group(group)?.facets;
+        let through = |facet: &Facet<D>| {
+            self.flux(facet, &self.trial.values, D + 1) - self.flux(facet, &self.trial.mesh_velocity, D)
+        };
+        Some(facets.iter().map(through).sum())
+    }
+
+    /// What the step in progress, or after [`commit`](Self::commit) the accepted one, loses of the balance of volume
+    /// `[m^2/s in 2D, m^3/s in 3D]`:
+    ///
+    /// ```text
+    /// D_t V - sum over the boundary of (w, n)
+    /// ```
+    ///
+    /// with the same BDF for the volume V of the mesh as for its nodes. The fluid obeys the flux; the shape
+    /// changes by `D_t V`. O(dt) for BDF1. Zero before the first step and in steady flow.
+    #[must_use]
+    pub fn volume_defect(&self) -> f64 {
+        if self.trial.step.is_none() {
+            return self.last_volume_defect;
+        }
+        let Some(bdf) = self.trial.bdf else { return 0.0 };
+        let rate = bdf.derivative(
+            volume(&self.mesh, &self.trial.displacement),
+            volume(&self.mesh, &self.committed.displacement),
+            volume(&self.mesh, &self.committed.previous_displacement),
+        );
+        let velocity = &self.trial.mesh_velocity;
+        let boundary = self.mesh.topology().boundary();
+        rate - boundary.iter().map(|facet| self.flux(facet, velocity, D)).sum::<f64>()
+    }
+
+    /// The prescribed velocities of a closed domain must keep its volume.
+    pub(crate) fn check_net_flux(&self, time: f64) -> Result<(), FluidError> {
+        let (mut net, mut gross) = (0.0, 0.0);
+        for facet in self.mesh.topology().boundary() {
+            let flux = self.flux(facet, &self.trial.values, D + 1);
+            net += flux;
+            gross += flux.abs();
+        }
+        if f64::abs(net) > BALANCED * gross {
+            return Err(FluidError::NetFlux { time, net, gross, dimension: D });
+        }
+        Ok(())
+    }
+
+    /// Outward flux through a facet of a nodal velocity with `stride` entries a node.
+    fn flux(&self, facet: &Facet<D>, velocity: &[f64], stride: usize) -> f64 {
+        let area_vector = facet.area_vector(&self.trial.points);
+        let through = |node: usize| (0..D).map(|i| area_vector[i] * velocity[node * stride + i]).sum::<f64>();
+        facet.nodes.iter().map(|&node| through(node)).sum::<f64>() / D as f64
+    }
+}

@@ -6,6 +6,7 @@ mod generated;
 mod gmsh;
 mod gmsh_broken;
 mod gmsh_damage;
+mod gmsh_kinds;
 mod motion;
 mod motion_errors;
 mod quality;

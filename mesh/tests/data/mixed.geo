@@ -1,0 +1,31 @@
+// A strip: quadrilaterals on the left, triangles on the right, and groups in every dimension.
+// The meshes beside it were written by gmsh 4.15.2.
+SetFactory("Built-in");
+size = 1;
+Point(1) = {0, 0, 0, size};
+Point(2) = {1, 0, 0, size};
+Point(3) = {2, 0, 0, size};
+Point(4) = {2, 1, 0, size};
+Point(5) = {1, 1, 0, size};
+Point(6) = {0, 1, 0, size};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Line(7) = {2, 5};
+Curve Loop(1) = {1, 7, 5, 6};
+Curve Loop(2) = {2, 3, 4, -7};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Transfinite Curve {1, 5} = 3;
+Transfinite Curve {6, 7} = 2;
+Transfinite Surface {1};
+Recombine Surface {1};
+Physical Point("probe", 21) = {4};
+Physical Point(22) = {1, 6};
+Physical Curve("bottom", 3) = {1, 2};
+Physical Curve("left", 3000) = {6};
+Physical Surface("quadrilaterals", 3) = {1};
+Physical Surface("triangles", 40) = {2};

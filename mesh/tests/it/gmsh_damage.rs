@@ -1,5 +1,7 @@
 //! Files cut or damaged anywhere give an error or a document: no panic, no hang, no absurd allocation.
 
+use std::path::Path;
+
 use allocation_counter::measure;
 use partita_mesh::gmsh::GmshFile;
 
@@ -72,6 +74,19 @@ fn undamaged_files_pass_the_same_checks() {
         assert!(digest(file));
         assert!(!parse(file).blocks.is_empty());
     }
+}
+
+#[test]
+fn the_corpus_of_the_fuzz_target_never_panics() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus/gmsh");
+    let mut readable = 0;
+    let files: Vec<_> = std::fs::read_dir(&folder).expect("the corpus").collect();
+    assert!(files.len() > 100, "{} files in {}", files.len(), folder.display());
+    for file in &files {
+        let path = file.as_ref().expect("an entry").path();
+        readable += usize::from(digest(&std::fs::read(path).expect("a readable file")));
+    }
+    assert!(readable > 10, "of {} files {readable} can be read", files.len());
 }
 
 /// A small generator of pseudo-random numbers: the same damage in every run.

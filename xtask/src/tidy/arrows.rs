@@ -27,7 +27,7 @@ const RESERVED: [(&str, &[&str]); 5] = [
     ("faer", &["numerics"]),
     ("clap", &["cli"]),
     ("indicatif", &["cli"]),
-    ("miette", &["cli"]),
+    ("miette", &["cli", "fuzz"]),
     ("toml", &["cli", "iga", "xtask"]),
 ];
 

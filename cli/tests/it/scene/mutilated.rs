@@ -1,5 +1,7 @@
 //! Whatever a file holds, the answer is a scene or a message, never a panic.
 
+use std::path::Path;
+
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use partita::scene::{parse, to_toml};
 
@@ -122,5 +124,22 @@ fn a_scene_nested_deeply_is_answered() {
         format!("title = {}", "{ a = ".repeat(20_000)),
     ] {
         read(&text, &[]);
+    }
+}
+
+#[test]
+fn the_corpus_of_the_fuzz_target_is_answered() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus/scene");
+    let files: Vec<_> = std::fs::read_dir(&folder).expect("the corpus").collect();
+    assert!(files.len() > 100, "{} files in {}", files.len(), folder.display());
+    for file in &files {
+        let path = file.as_ref().expect("an entry").path();
+        let input = String::from_utf8(std::fs::read(path).expect("a readable file")).expect("text");
+        // As the target splits it: lines that begin with `--set ` are overrides.
+        let (given, kept): (Vec<&str>, Vec<&str>) =
+            input.split_inclusive('\n').partition(|line| line.starts_with("--set "));
+        let overrides: Vec<String> =
+            given.iter().map(|line| line["--set ".len()..].trim_end_matches('\n').to_owned()).collect();
+        read(&kept.concat(), &overrides);
     }
 }

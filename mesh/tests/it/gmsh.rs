@@ -116,6 +116,7 @@ fn sections_that_are_not_needed_are_leapt_over() {
 #[test]
 fn big_endian_files_are_read_alike() {
     assert_eq!(parse(&big_endian_prism()), parse(PRISM_4_TEXT));
+    assert_eq!(parse(&big_endian_prism_2()), parse(PRISM_4_TEXT));
 }
 
 /// The 4.1 text with every number of its data written from the most significant byte on.
@@ -133,6 +134,30 @@ pub(crate) fn big_endian_prism() -> Vec<u8> {
     bytes.extend(b"\n$EndNodes\n$Elements\n");
     encode_blocks(elements, "iiis", "sssss", "", &mut bytes);
     bytes.extend(b"\n$EndElements\n");
+    bytes
+}
+
+/// The 2.2 text likewise, a header before every element.
+pub(crate) fn big_endian_prism_2() -> Vec<u8> {
+    let text = str::from_utf8(PRISM_2_TEXT).expect("text");
+    let mut bytes = Vec::new();
+    let mut section = "";
+    for line in text.lines() {
+        let words: Vec<_> = line.split_whitespace().collect();
+        match (section, &words[..]) {
+            (_, [mark]) => {
+                section = mark.strip_prefix('$').unwrap_or(section);
+                bytes.extend(format!("{line}\n").into_bytes());
+            }
+            (_, ["2.2", "0", "8"]) => bytes.extend(b"2.2 1 8\n\0\0\0\x01\n"),
+            ("Nodes", _) => encode(line, "iddd", &mut bytes),
+            ("Elements", [tag, kind, tags, rest @ ..]) => {
+                let ints = [&[*kind, "1", *tags, *tag], rest].concat();
+                encode(&ints.join(" "), &"i".repeat(ints.len()), &mut bytes);
+            }
+            _ => bytes.extend(format!("{line}\n").into_bytes()),
+        }
+    }
     bytes
 }
 

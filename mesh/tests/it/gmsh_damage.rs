@@ -5,7 +5,7 @@ use std::path::Path;
 use allocation_counter::measure;
 use partita_mesh::gmsh::GmshFile;
 
-use crate::gmsh::{ALL, big_endian_prism, parse};
+use crate::gmsh::{ALL, big_endian_prism, big_endian_prism_2, parse};
 
 /// Bytes that may be allocated while reading, beyond the file's size times a factor for tags, points and index.
 const CONSTANT: u64 = 16 * 1024;
@@ -31,7 +31,7 @@ fn digest(bytes: &[u8]) -> bool {
 
 #[test]
 fn every_prefix_of_a_file_is_refused() {
-    for file in ALL.into_iter().chain([&big_endian_prism()[..]]) {
+    for file in ALL.into_iter().chain([&big_endian_prism()[..], &big_endian_prism_2()]) {
         let end = file.trim_ascii_end().len();
         for length in 0..end {
             assert!(!digest(&file[..length]), "a file cut to {length} of {end} bytes is read");
@@ -43,7 +43,7 @@ fn every_prefix_of_a_file_is_refused() {
 #[test]
 fn damaged_bytes_never_panic() {
     let mut random = XorShift(0x9e37_79b9_7f4a_7c15);
-    for file in ALL.into_iter().chain([&big_endian_prism()[..]]) {
+    for file in ALL.into_iter().chain([&big_endian_prism()[..], &big_endian_prism_2()]) {
         for round in 0..1000 {
             let mut damaged = file.to_vec();
             for _ in 0..=(round % 4) {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use partita_mesh::gmsh::{ElementKind, Fault, GmshFile, GroupName};
+use partita_mesh::gmsh::{ElementBlock, ElementKind, Fault, GmshFile, GroupName};
 use partita_mesh::quality::measures;
 
 use crate::gmsh::{PRISM_4_TEXT, parse};
@@ -53,7 +53,7 @@ fn points_lines_triangles_and_quadrilaterals_keep_their_groups() {
         assert_eq!(file.group_name(0, 22), "group-22");
         assert_eq!((&*file.group_name(1, 3), &*file.group_name(2, 3)), ("bottom", "quadrilaterals"));
         let node = file.blocks[0].nodes[0];
-        assert_eq!(file.points[node], [2.0, 1.0, 0.0], "the probe's place");
+        assert_eq!(file.points[node..=node], [[2.0, 1.0, 0.0]], "the probe's place");
     }
 }
 
@@ -74,8 +74,7 @@ fn second_order_nodes_come_in_the_order_of_the_manual() {
     for (stem, kind, corners, edges) in cases {
         let file = common(stem);
         assert!(file.count(kind) > 0, "{stem} has no {kind}");
-        for nodes in file.blocks.iter().filter(|block| block.kind == kind).flat_map(|block| block.elements())
-        {
+        for nodes in file.blocks.iter().filter(|block| block.kind == kind).flat_map(ElementBlock::elements) {
             for (edge, &middle) in edges.iter().zip(&nodes[corners..]) {
                 let [a, b] = edge.map(|corner| file.points[nodes[corner]]);
                 for i in 0..3 {

@@ -29,6 +29,9 @@ pub(super) fn solver(
             schema::StructureTimeScheme::GeneralizedAlpha { spectral_radius } => {
                 TimeScheme::GeneralizedAlpha { spectral_radius: spectral_radius.get() }
             }
+            schema::StructureTimeScheme::Newmark { beta, gamma } => {
+                TimeScheme::Newmark { beta: beta.get(), gamma: gamma.get() }
+            }
             schema::StructureTimeScheme::QuasiStatic => TimeScheme::QuasiStatic,
         },
         newton: newton(&structure.newton),
@@ -43,6 +46,7 @@ pub(super) fn solver(
 fn material(material: &schema::Material) -> Result<Material, BuildError> {
     let (law, elastic) = match material {
         schema::Material::SaintVenantKirchhoff(elastic) => (Law::StVenantKirchhoff, elastic),
+        schema::Material::NeoHookean(elastic) => (Law::NeoHookean, elastic),
         schema::Material::LinearElastic(elastic) => (Law::LinearElastic, elastic),
     };
     let plane = match elastic.plane {

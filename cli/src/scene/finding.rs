@@ -1,5 +1,6 @@
 //! What is wrong with a scene, before it is known which text it stands in.
 
+use std::fmt;
 use std::ops::Range;
 
 use super::document::Sources;
@@ -15,6 +16,13 @@ pub(super) struct Finding {
 impl Finding {
     pub(super) fn new(what: impl Into<String>) -> Self {
         Self { what: what.into(), marks: Vec::new(), hint: String::new() }
+    }
+
+    /// The message of a library: what, and then a line `hint: ...`.
+    pub(super) fn of(error: &impl fmt::Display) -> Self {
+        let text = error.to_string();
+        let (what, hint) = text.split_once("\nhint: ").unwrap_or((&text, ""));
+        Self::new(what).hint(hint)
     }
 
     /// Points at a place. The first mark decides which text is shown.

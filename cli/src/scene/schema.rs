@@ -7,6 +7,7 @@ mod coupling;
 mod file;
 mod fluid;
 mod formula;
+mod geometry;
 mod limit;
 mod newton;
 mod numbers;
@@ -25,6 +26,7 @@ pub use fluid::{
     MotionMode, Outflow, PressurePin, RectangleMesh, Tangent,
 };
 pub use formula::{Formula, VectorFormula, VectorFunction};
+pub use geometry::{Alignment, ArcPatch, CurvePatch, Degree, Geometry, RectanglePatch, SplineFile};
 pub use limit::Limit;
 pub use newton::{Check, Newton, Tolerance};
 pub(crate) use numbers::plain;
@@ -33,10 +35,7 @@ pub use numbers::{
     SpectralRadius,
 };
 pub use output::{Output, Probe};
-pub use structure::{
-    Degree, Elastic, Geometry, Material, Plane, RayleighDamping, RectanglePatch, Side, Structure,
-    StructureTimeScheme,
-};
+pub use structure::{Elastic, Material, Plane, RayleighDamping, Side, Structure, StructureTimeScheme};
 
 /// A whole scene: a fluid, a structure, or both coupled.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

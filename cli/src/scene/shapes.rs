@@ -4,14 +4,12 @@ mod fluid;
 mod read;
 mod structure;
 
-use std::fmt;
 use std::path::Path;
 
 use partita_iga::Spline;
 use partita_mesh::Mesh;
 
-use super::finding::Finding;
-use super::schema::{FileName, FluidMesh, Scene};
+use super::schema::{FileName, FluidMesh, Geometry, Scene};
 use super::validate::Check;
 
 pub(crate) use read::Input;
@@ -45,8 +43,10 @@ impl Shapes {
 pub(crate) const INPUT_FOLDER: &str = "input";
 /// The fluid's mesh in that folder.
 const FLUID_FILE: &str = "fluid.msh";
+/// The structure's patch in that folder.
+const STRUCTURE_FILE: &str = "structure.toml";
 /// All files that may be in it.
-pub(crate) const INPUT_FILES: [&str; 1] = [FLUID_FILE];
+pub(crate) const INPUT_FILES: [&str; 2] = [FLUID_FILE, STRUCTURE_FILE];
 
 /// Lets `scene` name the copies of its files that a run keeps.
 pub(super) fn name_copies(scene: &mut Scene) {
@@ -54,11 +54,8 @@ pub(super) fn name_copies(scene: &mut Scene) {
     if let Some(FluidMesh::Gmsh(mesh)) = scene.fluid.as_mut().map(|fluid| &mut fluid.mesh) {
         mesh.file = copy(FLUID_FILE);
     }
-}
-
-/// The message of a library, `what` and then a line `hint: ...`, as a finding without a place.
-fn finding(error: &impl fmt::Display) -> Finding {
-    let text = error.to_string();
-    let (what, hint) = text.split_once("\nhint: ").unwrap_or((&text, ""));
-    Finding::new(what).hint(hint)
+    if let Some(Geometry::Spline(spline)) = scene.structure.as_mut().map(|structure| &mut structure.geometry)
+    {
+        spline.file = copy(STRUCTURE_FILE);
+    }
 }

@@ -5,10 +5,10 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::fluid::origin;
 use super::formula::VectorFormula;
+use super::geometry::Geometry;
 use super::newton::Newton;
-use super::numbers::{Count, NonNegative, PoissonRatio, Positive, Real, SpectralRadius};
+use super::numbers::{NonNegative, PoissonRatio, Positive, SpectralRadius};
 
 /// `[structure]`: a solid on a spline patch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -65,72 +65,14 @@ impl fmt::Display for Side {
     }
 }
 
-/// `[structure.geometry.*]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Geometry {
-    /// A rectangle along the axes.
-    Rectangle(RectanglePatch),
-}
-
-/// `[structure.geometry.rectangle]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RectanglePatch {
-    /// Lower left corner \[m\]. Default: `[0, 0]`.
-    #[serde(default = "origin")]
-    pub origin: [Real; 2],
-    /// Width and height \[m\].
-    pub size: [Positive; 2],
-    /// Spline elements along each side.
-    pub elements: [Count; 2],
-    /// Spline degree along each side, each from 1 to 9. Default: `[2, 2]`.
-    #[serde(default)]
-    pub degree: [Degree; 2],
-}
-
-/// The degree of a spline, 1 to 9.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(try_from = "i64", into = "usize")]
-pub struct Degree(usize);
-
-impl Degree {
-    /// The plain number.
-    #[must_use]
-    pub const fn get(self) -> usize {
-        self.0
-    }
-}
-
-impl Default for Degree {
-    fn default() -> Self {
-        Self(2)
-    }
-}
-
-impl TryFrom<i64> for Degree {
-    type Error = String;
-    fn try_from(value: i64) -> Result<Self, String> {
-        usize::try_from(value)
-            .ok()
-            .filter(|degree| (1..=9).contains(degree))
-            .map(Self)
-            .ok_or_else(|| format!("{value} is not a spline degree, from 1 to 9"))
-    }
-}
-
-impl From<Degree> for usize {
-    fn from(degree: Degree) -> Self {
-        degree.0
-    }
-}
-
 /// `[structure.material.*]`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Material {
     /// S = lambda tr(E) I + 2 mu E with the Green-Lagrange strain E: large displacements.
     SaintVenantKirchhoff(Elastic),
+    /// S = mu (I - C^-1) + lambda ln J C^-1: large displacements and strains, in compression too.
+    NeoHookean(Elastic),
     /// Hooke's law with the small strain: small displacements.
     LinearElastic(Elastic),
 }
@@ -169,12 +111,29 @@ pub enum StructureTimeScheme {
         #[serde(default = "spectral_radius")]
         spectral_radius: SpectralRadius,
     },
+    /// Newmark 1959.
+    Newmark {
+        /// Weight of the new acceleration in the displacement: above 0, up to 0.5. Default: 0.25.
+        #[serde(default = "newmark_beta")]
+        beta: Positive,
+        /// Weight of the new acceleration in the velocity: 0.5 is of second order, more damps. Default: 0.5.
+        #[serde(default = "newmark_gamma")]
+        gamma: Positive,
+    },
     /// No inertia.
     QuasiStatic,
 }
 
 fn spectral_radius() -> SpectralRadius {
     SpectralRadius::new(1.0).expect("1 is a spectral radius")
+}
+
+fn newmark_beta() -> Positive {
+    Positive::new(0.25).expect("0.25 is positive")
+}
+
+fn newmark_gamma() -> Positive {
+    Positive::new(0.5).expect("0.5 is positive")
 }
 
 impl Default for StructureTimeScheme {

@@ -6,8 +6,8 @@ use partita_mesh::Mesh;
 use partita_mesh::generate::{self, Diagonal};
 use partita_mesh::gmsh::GmshFile;
 
+use super::FLUID_FILE;
 use super::read::{self, Input};
-use super::{FLUID_FILE, finding};
 use crate::scene::finding::Finding;
 use crate::scene::schema::{Count, Diagonals, FluidMesh, GmshMesh, Positive, Real, RectangleMesh};
 use crate::scene::validate::Check;
@@ -38,16 +38,17 @@ fn rectangle(mesh: &RectangleMesh) -> Result<Mesh<2>, Finding> {
             Diagonals::Alternating => Diagonal::Alternating,
         },
     });
-    made.map_err(|error| finding(&error))
+    made.map_err(|error| Finding::of(&error))
 }
 
 fn from_file(mesh: &GmshMesh, folder: &Path, inputs: &mut Vec<Input>) -> Result<Mesh<2>, Finding> {
     let bytes = read::bytes(&mesh.file, folder)?;
-    let mut file = GmshFile::parse(&bytes).map_err(|error| finding(&format!("{}, {error}", mesh.file)))?;
+    let mut file =
+        GmshFile::parse(&bytes).map_err(|error| Finding::of(&format!("{}, {error}", mesh.file)))?;
     for x in file.points.as_flattened_mut() {
         *x *= mesh.scale.get();
     }
-    let made = file.into_mesh().map_err(|error| finding(&format!("{}: {error}", mesh.file)))?;
+    let made = file.into_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
     inputs.push(Input { name: FLUID_FILE, bytes });
     Ok(made)
 }

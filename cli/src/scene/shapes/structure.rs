@@ -2,25 +2,35 @@
 
 use std::path::Path;
 
-use partita_iga::{Spline, build};
+use partita_iga::{Spline, build, file, fit, orientation};
 
-use super::finding;
-use super::read::Input;
+use super::STRUCTURE_FILE;
+use super::read::{self, Input};
 use crate::scene::finding::Finding;
-use crate::scene::schema::{Count, Degree, Geometry, Positive, Real, RectanglePatch};
+use crate::scene::schema::{
+    Alignment, ArcPatch, Count, CurvePatch, Degree, Geometry, Positive, Real, RectanglePatch, SplineFile,
+};
 use crate::scene::validate::Check;
 
 /// The patch, or what is wrong with it.
 pub(super) fn patch(
     geometry: &Geometry,
-    _folder: &Path,
-    _inputs: &mut Vec<Input>,
+    folder: &Path,
+    inputs: &mut Vec<Input>,
     check: &mut Check<'_>,
 ) -> Option<Spline<2>> {
     let (made, place) = match geometry {
-        Geometry::Rectangle(patch) => (rectangle(patch), &["structure", "geometry", "rectangle"][..]),
+        Geometry::Rectangle(patch) => (rectangle(patch), ["rectangle", ""]),
+        Geometry::Arc(patch) => (arc(patch), ["arc", ""]),
+        Geometry::Curve(patch) => (strip(patch), ["curve", ""]),
+        Geometry::Spline(spline) => (from_file(spline, folder, inputs), ["spline", "file"]),
     };
-    made.map_err(|finding| check.add(finding.mark_if(check.value(place), "this patch"))).ok()
+    let place = ["structure", "geometry", place[0], place[1]];
+    let checked = made.and_then(|patch| match orientation::check(&patch) {
+        Ok(_) => Ok(patch),
+        Err(error) => Err(Finding::of(&error)),
+    });
+    checked.map_err(|finding| check.add(finding.mark_if(check.value(&place), "this patch"))).ok()
 }
 
 fn rectangle(patch: &RectanglePatch) -> Result<Spline<2>, Finding> {
@@ -30,5 +40,48 @@ fn rectangle(patch: &RectanglePatch) -> Result<Spline<2>, Finding> {
         patch.degree.map(Degree::get),
         patch.elements.map(Count::get),
     );
-    made.map_err(|error| finding(&error))
+    made.map_err(|error| Finding::of(&error))
+}
+
+fn arc(patch: &ArcPatch) -> Result<Spline<2>, Finding> {
+    let made = build::annular_sector(
+        patch.center.map(Real::get),
+        patch.radii.map(Positive::get),
+        patch.start.get().to_radians(),
+        patch.sweep.get().to_radians(),
+        patch.degree.map(Degree::get),
+        patch.elements.map(Count::get),
+    );
+    made.map_err(|error| Finding::of(&error))
+}
+
+/// A curve of one degree more than the strip leaves the strip as smooth as its degree allows.
+fn strip(patch: &CurvePatch) -> Result<Spline<2>, Finding> {
+    let points: Vec<[f64; 2]> = patch.points.iter().map(|point| point.map(Real::get)).collect();
+    let degree = patch.degree.map(Degree::get);
+    let along = if points.len() > degree[0] + 1 { degree[0] + 1 } else { degree[0] };
+    let (curve, _) = fit::through(&points, along).map_err(|error| Finding::of(&error))?;
+    let alignment = match patch.alignment {
+        Alignment::Bottom => build::Alignment::Bottom,
+        Alignment::Middle => build::Alignment::Middle,
+        Alignment::Top => build::Alignment::Top,
+    };
+    let elements = patch.elements.map(Count::get);
+    build::strip(&curve, patch.thickness.get(), alignment, degree, elements)
+        .map_err(|error| Finding::of(&error))
+}
+
+fn from_file(spline: &SplineFile, folder: &Path, inputs: &mut Vec<Input>) -> Result<Spline<2>, Finding> {
+    let bytes = read::bytes(&spline.file, folder)?;
+    let text = std::str::from_utf8(&bytes).map_err(|_| {
+        Finding::new(format!("{} is not text", spline.file)).hint("a spline file is TOML: text in UTF-8")
+    })?;
+    let patch =
+        file::from_toml::<2>(text).map_err(|error| Finding::of(&format!("{}, {error}", spline.file)))?;
+    if patch.parameters() != 2 {
+        return Err(Finding::new(format!("{} holds a curve, not a patch", spline.file))
+            .hint("a plane structure is a spline of two parameters: give two degrees and two knot vectors"));
+    }
+    inputs.push(Input { name: STRUCTURE_FILE, bytes });
+    Ok(patch)
 }

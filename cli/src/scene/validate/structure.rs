@@ -1,5 +1,7 @@
 //! Whether the structure is held and touches what it should.
 
+use partita_numerics::time::GeneralizedAlpha;
+
 use super::Check;
 use crate::scene::finding::Finding;
 use crate::scene::schema::{Geometry, Side, Structure, StructureTimeScheme};
@@ -39,17 +41,23 @@ pub(super) fn check(check: &mut Check<'_>, structure: &Structure, coupled: bool)
         ),
         _ => {}
     }
+    newmark(check, structure);
     statics(check, structure);
 }
 
 fn size(check: &mut Check<'_>, structure: &Structure) {
-    let Geometry::Rectangle(patch) = &structure.geometry;
-    let along = |c: usize| (patch.elements[c].get() + patch.degree[c].get()) as f64;
+    let (choice, elements, degree) = match &structure.geometry {
+        Geometry::Rectangle(patch) => ("rectangle", patch.elements, patch.degree),
+        Geometry::Arc(patch) => ("arc", patch.elements, patch.degree),
+        Geometry::Curve(patch) => ("curve", patch.elements, patch.degree),
+        Geometry::Spline(_) => return,
+    };
+    let along = |c: usize| (elements[c].get() + degree[c].get()) as f64;
     let points = along(0) * along(1);
     if points > MOST_POINTS {
         check.add(
             Finding::new(format!("the structure would have about {points:.0e} control points"))
-                .mark_if(check.value(&["structure", "geometry", "rectangle", "elements"]), "too fine")
+                .mark_if(check.value(&["structure", "geometry", choice, "elements"]), "too fine")
                 .hint(format!("at most {MOST_POINTS:.0e} can be asked for")),
         );
     }
@@ -64,6 +72,13 @@ fn twice(check: &mut Check<'_>, key: &str, sides: &[Side]) {
                 .mark_if(check.value(&["structure", key]), "once is enough")
                 .hint(format!("name `{side}` once")),
         );
+    }
+}
+
+fn newmark(check: &mut Check<'_>, structure: &Structure) {
+    let StructureTimeScheme::Newmark { beta, gamma } = structure.time_scheme else { return };
+    if let Err(error) = GeneralizedAlpha::newmark(beta.get(), gamma.get()) {
+        check.add(Finding::of(&error).mark_if(check.value(&["structure", "time_scheme"]), "not stable"));
     }
 }
 

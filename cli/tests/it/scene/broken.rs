@@ -1,6 +1,7 @@
 //! Broken scenes and the messages they give.
 
 mod fit;
+mod geometry;
 mod keys;
 mod overrides;
 mod shapes;

@@ -82,18 +82,18 @@ fn a_missing_key_is_named() {
 
 #[test]
 fn a_missing_table_is_named() {
-    assert_snapshot!(broken("[structure.geometry.rectangle]\norigin = [0.0, -0.05]\nsize = [1.0, 0.05]\nelements = [60, 1]\n", ""), @r#"
-      × [structure] lacks `geometry`
-        ╭─[scene.toml:22:1]
-     21 │ 
-     22 │ [structure]
-        · ─────┬─────
-        ·      ╰── `geometry` is missing here
-     23 │ density = 1000.0
-        ╰────
-      help: choose `structure.geometry`, it has no default: rectangle
-            Where the structure is.
-    "#);
+    assert_snapshot!(broken("[structure.geometry.rectangle]\norigin = [0.0, -0.05]\nsize = [1.0, 0.05]\nelements = [60, 1]\n", ""), @r"
+     × [structure] lacks `geometry`
+       ╭─[scene.toml:22:1]
+    21 │ 
+    22 │ [structure]
+       · ─────┬─────
+       ·      ╰── `geometry` is missing here
+    23 │ density = 1000.0
+       ╰────
+     help: choose `structure.geometry`, it has no default: rectangle, arc, curve, spline
+           Where the structure is.
+    ");
 }
 
 #[test]

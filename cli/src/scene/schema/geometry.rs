@@ -1,0 +1,133 @@
+//! `[structure.geometry.*]`: where the structure is.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::file::FileName;
+use super::fluid::origin;
+use super::numbers::{Count, Positive, Real};
+
+/// `[structure.geometry.*]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Geometry {
+    /// A rectangle along the axes.
+    Rectangle(RectanglePatch),
+    /// A curved beam: the sector of a ring. Its first parameter runs along the arc, its second to the left of it.
+    Arc(ArcPatch),
+    /// A strip of constant thickness along a smooth curve through points.
+    Curve(CurvePatch),
+    /// A patch from a spline file (see the README of `partita-iga`).
+    Spline(SplineFile),
+}
+
+/// `[structure.geometry.rectangle]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RectanglePatch {
+    /// Lower left corner \[m\]. Default: `[0, 0]`.
+    #[serde(default = "origin")]
+    pub origin: [Real; 2],
+    /// Width and height \[m\].
+    pub size: [Positive; 2],
+    /// Spline elements along each side.
+    pub elements: [Count; 2],
+    /// Spline degree along each side, each from 1 to 9. Default: `[2, 2]`.
+    #[serde(default)]
+    pub degree: [Degree; 2],
+}
+
+/// `[structure.geometry.arc]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ArcPatch {
+    /// Centre of the circle \[m\]. Default: `[0, 0]`.
+    #[serde(default = "origin")]
+    pub center: [Real; 2],
+    /// Inner and outer radius \[m\].
+    pub radii: [Positive; 2],
+    /// Angle from the x axis at which the arc starts \[degrees\].
+    pub start: Real,
+    /// Angle through which it runs \[degrees\], counter-clockwise where positive. Clockwise, `bottom` is the inner arc.
+    pub sweep: Real,
+    /// Spline elements along the arc and across.
+    pub elements: [Count; 2],
+    /// Spline degree along the arc, at least 2, and across. Default: `[2, 2]`.
+    #[serde(default)]
+    pub degree: [Degree; 2],
+}
+
+/// `[structure.geometry.curve]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CurvePatch {
+    /// Points that the curve passes in this order \[m\], more than its degree along.
+    pub points: Vec<[Real; 2]>,
+    /// Thickness of the strip \[m\].
+    pub thickness: Positive,
+    /// Which line of the strip the curve is: `"middle"` (default), `"bottom"` or `"top"`.
+    #[serde(default)]
+    pub alignment: Alignment,
+    /// Spline elements along the curve, at least as many as points less degree, and across.
+    pub elements: [Count; 2],
+    /// Spline degree along the curve and across. Default: `[2, 2]`.
+    #[serde(default)]
+    pub degree: [Degree; 2],
+}
+
+/// `structure.geometry.curve.alignment`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Alignment {
+    /// The right side, seen along the curve.
+    Bottom,
+    /// Halfway between the sides.
+    #[default]
+    Middle,
+    /// The left side, seen along the curve.
+    Top,
+}
+
+/// `[structure.geometry.spline]`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SplineFile {
+    /// Spline file, relative to the scene's folder.
+    pub file: FileName,
+}
+
+/// The degree of a spline, 1 to 9.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "i64", into = "usize")]
+pub struct Degree(usize);
+
+impl Degree {
+    /// The plain number.
+    #[must_use]
+    pub const fn get(self) -> usize {
+        self.0
+    }
+}
+
+impl Default for Degree {
+    fn default() -> Self {
+        Self(2)
+    }
+}
+
+impl TryFrom<i64> for Degree {
+    type Error = String;
+    fn try_from(value: i64) -> Result<Self, String> {
+        usize::try_from(value)
+            .ok()
+            .filter(|degree| (1..=9).contains(degree))
+            .map(Self)
+            .ok_or_else(|| format!("{value} is not a spline degree, from 1 to 9"))
+    }
+}
+
+impl From<Degree> for usize {
+    fn from(degree: Degree) -> Self {
+        degree.0
+    }
+}

@@ -13,7 +13,8 @@
 
 use std::time::Instant;
 
-use crate::error::StepFailure;
+use crate::divergence;
+use crate::error::{ParticipantError, StepFailure};
 use crate::march::{AtLimit, Choices};
 use crate::observe::Observer;
 use crate::participant::Participant;
@@ -21,6 +22,9 @@ use crate::port::{self, Block};
 use crate::record::{FieldRecord, FieldSeconds, IterationRecord, Seconds, StepHistory};
 use crate::transfer::Transfers;
 use crate::vector::{dot, norm, ratio, subtract};
+
+/// A residual that found no smaller value in so many iterations is not on its way to zero.
+const STANDSTILL: usize = 10;
 
 /// The vectors at the interface, alive as long as the run.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,7 +71,9 @@ impl Interface {
 /// committed here.
 ///
 /// # Errors
-/// When a participant fails, a value at the interface is not finite, or the iteration bound is reached.
+/// When a participant fails, a value at the interface is not finite, the iteration diverges (see [`divergence`]), or the
+/// iteration bound is reached. A participant that fails while the residual grows is reported as a divergence. The
+/// history holds every finished iteration, and the observer has seen them all.
 ///
 /// # Panics
 /// When the vectors of `interface` do not have the lengths of the participants' blocks.
@@ -89,7 +95,9 @@ pub fn solve_step(
         transfers.apply(&interface.x, &mut interface.displacement);
         seconds.transfer += lap(&mut clock);
 
-        let effort = first.advance(&interface.displacement, limits.first, &mut interface.load)?;
+        let effort = first
+            .advance(&interface.displacement, limits.first, &mut interface.load)
+            .map_err(|error| explain(error, history))?;
         seconds.fields[0] = FieldSeconds { total: lap(&mut clock), phases: effort.time };
         let first_record = FieldRecord::new(first.name(), limits.first, effort);
         check_finite(&interface.load, first.name(), first.output())?;
@@ -99,13 +107,15 @@ pub fn solve_step(
         transfers.apply_transpose(&interface.load, &mut interface.transferred_load);
         seconds.transfer += lap(&mut clock);
 
-        let effort = second.advance(&interface.transferred_load, limits.second, &mut interface.x_tilde)?;
+        let effort = second
+            .advance(&interface.transferred_load, limits.second, &mut interface.x_tilde)
+            .map_err(|error| explain(error, history))?;
         seconds.fields[1] = FieldSeconds { total: lap(&mut clock), phases: effort.time };
         let second_record = FieldRecord::new(second.name(), limits.second, effort);
         check_finite(&interface.x_tilde, second.name(), second.output())?;
 
         subtract(&interface.x_tilde, &interface.x, &mut interface.r);
-        let residual = norm(&interface.r);
+        let residual = finite_norm(&interface.r, second)?;
         history.iterations.push(IterationRecord {
             step: history.step.index,
             iteration,
@@ -116,18 +126,22 @@ pub fn solve_step(
             acceleration: None,
             seconds,
         });
-        let converged = criterion.ends_step(history);
+        let (converged, at_bound) = (criterion.ends_step(history), iteration == *max_iterations);
+        let growth = if converged { None } else { divergence::diverged(history, at_bound) };
         let record = history.iterations.last_mut().expect("the record was just pushed");
-        if !converged && iteration < *max_iterations {
+        if !converged && !at_bound && growth.is_none() {
             clock = Instant::now();
             record.acceleration = Some(accelerator.propose(&mut interface.x, &interface.r));
             record.seconds.acceleration += lap(&mut clock);
-            check_finite(&interface.x, "acceleration", second.output())?;
         }
         observer.iteration(record);
         if converged {
             return Ok(true);
         }
+        if let Some(growth) = growth {
+            return Err(StepFailure::Diverges { growth, field: None });
+        }
+        check_finite(&interface.x, "acceleration", second.output())?;
     }
     match at_limit {
         AtLimit::Fail => Err(too_many_iterations(history)),
@@ -139,6 +153,27 @@ pub fn solve_step(
 fn lap(clock: &mut Instant) -> f64 {
     let now = Instant::now();
     now.duration_since(std::mem::replace(clock, now)).as_secs_f64()
+}
+
+/// A field that gives up while the residual grows was given what no field can bear.
+fn explain(error: ParticipantError, history: &StepHistory) -> StepFailure {
+    match divergence::suspected(history) {
+        Some(growth) => StepFailure::Diverges { growth, field: Some(error) },
+        None => error.into(),
+    }
+}
+
+/// `|r|`, which may overflow where no component does.
+fn finite_norm(r: &[f64], second: &impl Participant) -> Result<f64, StepFailure> {
+    let largest = r.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    match (norm(r), largest) {
+        (residual, Some((index, &value))) if !residual.is_finite() => Err(StepFailure::NotFinite {
+            origin: second.name().to_owned(),
+            place: port::place(second.output(), index),
+            value,
+        }),
+        (residual, _) => Ok(residual),
+    }
 }
 
 fn check_finite(values: &[f64], origin: &str, blocks: &[Block]) -> Result<(), StepFailure> {
@@ -166,5 +201,8 @@ fn too_many_iterations(history: &StepHistory) -> StepFailure {
         } else {
             format!("above the own residual bound: {}", open.join(", "))
         },
+        stands_since: divergence::growth(history)
+            .map(|growth| growth.since)
+            .filter(|since| last.iteration - since >= STANDSTILL),
     }
 }

@@ -5,6 +5,7 @@ use std::fmt;
 
 use thiserror::Error;
 
+use crate::divergence::Growth;
 use crate::participant::Step;
 use crate::record::StepHistory;
 
@@ -61,7 +62,7 @@ impl Error for ParticipantError {
 
 /// A step could not be finished. Both fields are back at the committed state, so it can be tried again.
 #[derive(Error)]
-#[error("step {} (t = {} s), {}{cause}", step.index, step.time, place(*iteration))]
+#[error("step {} (t = {} s), {}{cause}", step.index, short(step.time), place(*iteration))]
 pub struct StepError {
     /// The step that failed.
     pub step: Step,
@@ -86,6 +87,11 @@ impl fmt::Debug for StepError {
     }
 }
 
+/// Nine digits: times are products, and their last bits are noise to a reader.
+fn short(time: f64) -> f64 {
+    format!("{time:.8e}").parse().unwrap_or(time)
+}
+
 fn place(iteration: usize) -> String {
     if iteration == 0 { String::new() } else { format!("coupling iteration {iteration}, ") }
 }
@@ -108,9 +114,18 @@ pub enum StepFailure {
         /// The value.
         value: f64,
     },
+    /// The interface residual grows, see [`divergence`](crate::divergence).
+    #[error("{}the coupling iteration diverges: |r| grew from {:.3e} m in iteration {} to {:.3e} m in iteration {}\nhint: take a smaller relaxation factor, Aitken relaxation or a quasi-Newton method; a smaller time step does not help against the added mass of an incompressible fluid", lead(field.as_ref()), growth.from, growth.since, growth.to, growth.at)]
+    Diverges {
+        /// How far it grew.
+        growth: Growth,
+        /// The error of the field that gave up under what the iteration proposed, if one did.
+        #[source]
+        field: Option<ParticipantError>,
+    },
     /// The iteration bound was reached without convergence.
     #[error(
-        "the step is not converged after {iterations} coupling iterations: |r| = {residual:.3e} m ({relative_residual:.3e} of the interface displacement), largest change {largest_change:.3e}, {open}\nhint: raise the iteration bound, use a quasi-Newton method, or check that the tolerances can be met"
+        "the step is not converged after {iterations} coupling iterations: |r| = {residual:.3e} m ({relative_residual:.3e} of the interface displacement), largest change {largest_change:.3e}, {open}{}", outlook(*stands_since)
     )]
     TooManyIterations {
         /// The bound.
@@ -123,7 +138,24 @@ pub enum StepFailure {
         largest_change: f64,
         /// The fields that miss their own bound, in words.
         open: String,
+        /// The iteration of the smallest residual, where many iterations since then have not found a smaller one.
+        stands_since: Option<usize>,
     },
+}
+
+/// What the field that gave up said, before what the iteration did.
+fn lead(field: Option<&ParticipantError>) -> String {
+    field.map_or_else(|| "interface: ".to_owned(), |error| format!("{}: {}; ", error.field, error.message))
+}
+
+/// Whether more iterations would help.
+fn outlook(stands_since: Option<usize>) -> String {
+    match stands_since {
+        None => "\nhint: raise the iteration bound, use a quasi-Newton method, or check that the tolerances can be met".to_owned(),
+        Some(iteration) => format!(
+            "; |r| has not fallen since iteration {iteration}\nhint: more iterations will not help; take a smaller relaxation factor, Aitken relaxation or a quasi-Newton method, or check that the tolerances can be met"
+        ),
+    }
 }
 
 /// The parts of a coupled problem do not fit together.

@@ -8,7 +8,8 @@
 //! * [`accelerate`]: relaxation and interface quasi-Newton methods.
 //! * [`policy`]: how many Newton iterations each call may run. [`criterion`]: when a step is done.
 //! * [`predict`]: where a step starts.
-//! * [`dirichlet_neumann`]: one time step, the one loop of this crate. [`march`]: step after step.
+//! * [`dirichlet_neumann`]: one time step, the one loop of this crate. [`divergence`]: when it has gone astray.
+//!   [`march`]: step after step.
 //! * [`record`] and [`observe`]: what a run leaves behind.
 //! * [`conformance`]: checks for everybody who implements a trait of this crate.
 //! * [`models`]: an elastic tube and a linear tank, small enough to debug a method in milliseconds.
@@ -46,6 +47,7 @@ pub mod accelerate;
 pub mod conformance;
 pub mod criterion;
 pub mod dirichlet_neumann;
+pub mod divergence;
 pub mod error;
 pub mod march;
 pub mod models;
@@ -60,6 +62,7 @@ mod vector;
 
 pub use accelerate::{Acceleration, Accelerator, AcceleratorState, Filter, Proposal, QuasiNewton};
 pub use criterion::{Bound, Criterion};
+pub use divergence::Growth;
 pub use error::{ParticipantError, SetupError, StepError, StepFailure};
 pub use march::{AtLimit, Choices, CouplingSettings, March, MarchState};
 pub use observe::Observer;

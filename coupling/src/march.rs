@@ -235,7 +235,12 @@ impl<A: Participant, B: Participant> March<A, B> {
 
     fn failed_iteration(&self, failure: &StepFailure) -> usize {
         let finished = self.history.iterations.len();
-        if matches!(failure, StepFailure::TooManyIterations { .. }) { finished } else { finished + 1 }
+        match failure {
+            StepFailure::TooManyIterations { .. } | StepFailure::Diverges { field: None, .. } => finished,
+            StepFailure::Participant(_)
+            | StepFailure::NotFinite { .. }
+            | StepFailure::Diverges { field: Some(_), .. } => finished + 1,
+        }
     }
 
     fn accept(&mut self, clock: Clock) {

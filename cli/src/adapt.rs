@@ -122,7 +122,10 @@ where
             last_output.copy_from_slice(output);
             if change < tolerance { Verdict::Stop } else { Verdict::Continue }
         })
-        .map_err(|failure| newton_error::<F>(&failure))?;
+        .map_err(|failure| newton_error(&self.field, &failure))?;
+        if report.converged {
+            self.field.verify().map_err(|error| field_error::<F>(&error))?;
+        }
         self.field.output(output);
         self.last_output.copy_from_slice(output);
         let changes = self.changes();
@@ -187,22 +190,33 @@ where
     split_hint(F::NAME, &error.to_string())
 }
 
-/// A failed Newton loop; where the field itself failed inside, its words follow.
-fn newton_error<F: Field>(failure: &Failure<F::Error>) -> ParticipantError
+/// A failed Newton loop: where the field itself failed inside, its words follow; otherwise the place of the largest
+/// residual.
+fn newton_error<F: Field>(field: &F, failure: &Failure<F::Error>) -> ParticipantError
 where
     F::Error: Error,
 {
-    match failure {
+    let mut error = match failure {
         Failure::Problem { iteration, source } => {
-            split_hint(F::NAME, &format!("Newton iteration {iteration}: {source}"))
+            let mut error = field_error::<F>(source);
+            error.message = format!("Newton iteration {iteration}: {}", error.message);
+            return error;
         }
         other => split_hint(F::NAME, &other.to_string()),
+    };
+    if let Some(worst) = field.worst_equation() {
+        error.message = format!("{}; it is largest for {worst}", error.message);
     }
+    error
 }
 
-/// Messages of the fields may begin with their name and end with a line `hint: ...`; the coupling keeps both apart.
+/// Messages of the fields may begin with their name, perhaps after the time, and end with a line `hint: ...`; the coupling
+/// says where and when, and keeps the hint apart.
 fn split_hint(field: &str, message: &str) -> ParticipantError {
-    let message = message.strip_prefix(field).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(message);
+    let message = match message.split_once(&format!("{field}: ")) {
+        Some((before, rest)) if before.is_empty() || before.starts_with("t = ") => rest,
+        _ => message,
+    };
     match message.split_once("\nhint: ") {
         Some((what, hint)) => ParticipantError::new(field, what).with_hint(hint),
         None => ParticipantError::new(field, message),

@@ -38,6 +38,8 @@ pub(crate) struct Assembly {
     pub(crate) right_hand_side: Vec<f64>,
     /// dR over the pattern, in the frames of the nodes.
     pub(crate) tangent: Vec<f64>,
+    /// Whether continuity, not momentum, decided the norm of the last assembly.
+    pub(crate) continuity_is_worse: bool,
     /// One element matrix.
     local: Vec<f64>,
 }
@@ -55,6 +57,7 @@ impl Assembly {
             residual: vec![0.0; prescribed.len()],
             right_hand_side: vec![0.0; dofs.free_count()],
             tangent: vec![0.0; pattern.nonzeros()],
+            continuity_is_worse: false,
             local: vec![0.0; connectivity.dofs_per_element().pow(2)],
             dofs,
             pattern,
@@ -82,7 +85,9 @@ impl Assembly {
             *residual = terms.iter().sum();
         }
         self.turn_terms(iterate.frames);
-        norm::<D>(&self.dofs, &self.terms, &sizes, &mut self.right_hand_side)
+        let measured = norm::<D>(&self.dofs, &self.terms, &sizes, &mut self.right_hand_side);
+        self.continuity_is_worse = measured.continuity_is_worse;
+        measured.norm
     }
 
     fn elements<const D: usize, const N: usize>(

@@ -35,9 +35,11 @@ pub mod stabilization;
 mod state;
 mod step;
 mod trial;
+mod worst;
 
 pub use error::FluidError;
 pub use model::{BodyForce, BoundaryCondition, FluidModel, InitialState, VectorField};
 pub use settings::{FluidSettings, PressurePin, Tangent, TimeScheme};
 pub use solver::{FluidSolver, Part};
 pub use state::FluidState;
+pub use worst::WorstEquation;

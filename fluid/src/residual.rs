@@ -32,6 +32,14 @@ struct Block {
     terms: [f64; TERMS],
 }
 
+/// How large a residual is, and of which block.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Measured {
+    pub(crate) norm: ResidualNorm,
+    /// Whether continuity is the block of the larger relative part.
+    pub(crate) continuity_is_worse: bool,
+}
+
 /// The norm over the free rows, and the right-hand side -R.
 ///
 /// ```text
@@ -47,7 +55,7 @@ pub(crate) fn norm<const D: usize>(
     terms: &[[f64; TERMS]],
     sizes: &Sizes,
     right_hand_side: &mut [f64],
-) -> ResidualNorm {
+) -> Measured {
     let mut blocks = [Block::default(); 2];
     for (entry, &dof) in right_hand_side.iter_mut().zip(dofs.free()) {
         let row = &terms[dof];
@@ -61,8 +69,12 @@ pub(crate) fn norm<const D: usize>(
     }
     let [momentum, continuity] = blocks;
     let absolute = (momentum.residual + continuity.residual).sqrt();
-    let worst = momentum.norm(sizes.momentum).worse(continuity.norm(sizes.continuity));
-    ResidualNorm { absolute, relative: worst.relative }
+    let [momentum, continuity] = [momentum.norm(sizes.momentum), continuity.norm(sizes.continuity)];
+    let worst = momentum.worse(continuity);
+    Measured {
+        norm: ResidualNorm { absolute, relative: worst.relative },
+        continuity_is_worse: !momentum.relative.is_nan() && worst == continuity && worst != momentum,
+    }
 }
 
 impl Block {
@@ -77,7 +89,7 @@ mod tests {
     use super::*;
 
     /// Two nodes in 2D, the first velocity prescribed; rows hold two terms.
-    fn norm_of(rows: [[f64; 2]; 6]) -> (ResidualNorm, Vec<f64>) {
+    fn measured(rows: [[f64; 2]; 6]) -> (Measured, Vec<f64>) {
         let dofs = DofMap::new(&[true, false, false, false, false, false]);
         let mut terms = [[0.0; TERMS]; 6];
         for (terms, row) in terms.iter_mut().zip(rows) {
@@ -88,6 +100,11 @@ mod tests {
         (norm::<2>(&dofs, &terms, &sizes, &mut right_hand_side), right_hand_side)
     }
 
+    fn norm_of(rows: [[f64; 2]; 6]) -> (ResidualNorm, Vec<f64>) {
+        let (measured, right_hand_side) = measured(rows);
+        (measured.norm, right_hand_side)
+    }
+
     #[test]
     fn each_block_is_measured_against_its_own_largest_term() {
         // Momentum: |(1, 2)| against |(4, 3)|. Continuity: 0.02 against 0.04.
@@ -96,10 +113,12 @@ mod tests {
         assert_eq!(right_hand_side, [-1.0, 0.0, 0.0, -2.0, -0.02]);
         assert!((found.absolute - f64::sqrt(5.0 + 4e-4)).abs() < 1e-15);
         assert!((found.relative - 0.5).abs() < 1e-15, "continuity is the worse one: {}", found.relative);
+        assert!(measured(rows).0.continuity_is_worse);
         let mut rows = rows;
         rows[5] = [0.04, -0.04 + 1e-6];
         let momentum = f64::sqrt(5.0) / f64::sqrt(9.0 + 25.0);
         assert!((norm_of(rows).0.relative - momentum).abs() < 1e-15);
+        assert!(!measured(rows).0.continuity_is_worse);
     }
 
     #[test]

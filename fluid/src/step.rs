@@ -119,6 +119,7 @@ impl<const D: usize> FluidSolver<D> {
         self.last_volume_defect = self.volume_defect();
         let (time, dt) = self.trial.step.take().expect("commit ends a step that begin_step started");
         self.committed.advance(time, dt, &self.trial.values, &self.trial.displacement);
+        self.trial.committed_mesh_velocity.copy_from_slice(&self.trial.mesh_velocity);
     }
 
     /// Gives the step up: back to the committed state.
@@ -141,6 +142,8 @@ impl<const D: usize> FluidSolver<D> {
         self.committed.check_fits(state)?;
         self.committed.clone_from(state);
         self.last_volume_defect = 0.0;
+        // A state does not hold it.
+        self.trial.committed_mesh_velocity.fill(0.0);
         self.rewind();
         Ok(())
     }

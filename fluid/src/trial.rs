@@ -25,6 +25,8 @@ pub(crate) struct Trial<const D: usize> {
     pub(crate) displacement: Vec<f64>,
     /// w, `node * D + c`.
     pub(crate) mesh_velocity: Vec<f64>,
+    /// w of the committed step, for whoever draws it after a step was given up; no equation reads it.
+    pub(crate) committed_mesh_velocity: Vec<f64>,
     /// The moved mesh.
     pub(crate) points: Vec<[f64; D]>,
 }
@@ -40,7 +42,8 @@ impl<const D: usize> Trial<D> {
             history: zero.clone(),
             body_force: zero.clone(),
             displacement: zero.clone(),
-            mesh_velocity: zero,
+            mesh_velocity: zero.clone(),
+            committed_mesh_velocity: zero,
             points: mesh.points().to_vec(),
         }
     }
@@ -50,7 +53,7 @@ impl<const D: usize> Trial<D> {
         self.step = None;
         self.values.copy_from_slice(&committed.values);
         self.displacement.copy_from_slice(&committed.displacement);
-        self.mesh_velocity.fill(0.0);
+        self.mesh_velocity.copy_from_slice(&self.committed_mesh_velocity);
         self.move_points(mesh);
     }
 

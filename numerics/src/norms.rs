@@ -43,6 +43,25 @@ pub fn relative_change(entry: &[f64], exit: &[f64], dofs: &[usize]) -> f64 {
     relative(change, norm2_at(exit, dofs))
 }
 
+/// The first of the listed `dofs` whose entry of `x` is not finite, or else the one of the largest magnitude; nothing
+/// where no dof is listed.
+///
+/// ```
+/// use partita_numerics::norms::largest_at;
+///
+/// assert_eq!(largest_at(&[9.0, -3.0, 2.0], &[1, 2]), Some(1));
+/// assert_eq!(largest_at(&[9.0, f64::NAN, f64::INFINITY], &[0, 1, 2]), Some(1));
+/// ```
+///
+/// # Panics
+///
+/// If a dof lies outside `x`.
+#[must_use]
+pub fn largest_at(x: &[f64], dofs: &[usize]) -> Option<usize> {
+    let size = |dof: usize| if x[dof].is_finite() { x[dof].abs() } else { f64::INFINITY };
+    dofs.iter().copied().reduce(|largest, dof| if size(dof) > size(largest) { dof } else { largest })
+}
+
 /// value / scale with 0/0 = 0.
 #[must_use]
 pub fn relative(value: f64, scale: f64) -> f64 {

@@ -203,6 +203,20 @@ impl<const D: usize> Assembly<D> {
         }
     }
 
+    /// The element, place `[m]` and value of the smallest det F of a displacement, if it is not positive.
+    pub(crate) fn fold(&self, displacement: &[f64], local: &mut Local<D>) -> Option<(usize, [f64; D], f64)> {
+        let mut worst = None;
+        for e in 0..self.elements.len() {
+            local.gather(self.elements.nodes(e), displacement);
+            let (determinant, point) = kernel::smallest_determinant(self.elements.element(e), &local.field);
+            let least = worst.map_or(0.0, |(_, _, least)| least);
+            if determinant.is_nan() || determinant <= least {
+                worst = Some((e, self.elements.places(e)[point], determinant));
+            }
+        }
+        worst
+    }
+
     /// Strain energy of a displacement `[J, in 2D J/m]`.
     pub(crate) fn strain_energy(&self, displacement: &[f64]) -> f64 {
         self.sum(displacement, |e, d| kernel::strain_energy(self.elements.element(e), &self.material, d))

@@ -6,6 +6,12 @@ use partita_numerics::time::{NewmarkError, SpectralRadiusError};
 
 use crate::material::ResponseError;
 
+/// A place with six digits a coordinate: `(0.333333, 0) m`.
+pub(crate) fn shown(place: &[f64]) -> String {
+    let short = |x: &f64| format!("{x:.5e}").parse().unwrap_or(*x).to_string();
+    format!("({}) m", place.iter().map(short).collect::<Vec<_>>().join(", "))
+}
+
 /// A structure that cannot be built, solved or restored.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StructureError {
@@ -87,6 +93,21 @@ pub enum StructureError {
         place: Vec<f64>,
         /// What is wrong there.
         source: ResponseError,
+    },
+    /// A converged deformation turns matter inside out, which the material law does not notice.
+    #[error(
+        "element {element} near {} is turned inside out: det F = {determinant:.3e}\n\
+         hint: the load is too large for this material, or for one step; St. Venant-Kirchhoff gives way under strong \
+         compression",
+        shown(place)
+    )]
+    Folded {
+        /// The element, the first parameter runs fastest.
+        element: usize,
+        /// The quadrature point in the reference configuration `[m]`.
+        place: Vec<f64>,
+        /// Determinant of the deformation gradient there.
+        determinant: f64,
     },
     /// Nothing is left to move.
     #[error("every control point is clamped\nhint: leave at least one side free, or refine the patch")]

@@ -8,6 +8,8 @@
 //! time integration; nodal fields are slices with one `[f64; D]` a node, results are *added* to the slices given. A
 //! field of another length is a panic; a deformation that the material has no stress for is a [`PointError`].
 
+use partita_numerics::small;
+
 use crate::material::{Material, ResponseError};
 use crate::tensor::{self, Tensor};
 
@@ -273,6 +275,26 @@ pub fn add_volume<const D: usize>(element: Element<D>, volume: &mut [f64]) {
             *v += point.weight * n;
         }
     }
+}
+
+/// The smallest det F = det(I + grad d) at the quadrature points, and the number of its point; one that is not a number
+/// counts as the smallest.
+#[must_use]
+pub fn smallest_determinant<const D: usize>(element: Element<D>, displacement: &[[f64; D]]) -> (f64, usize) {
+    element.assert_fits(displacement);
+    let mut smallest = (f64::INFINITY, 0);
+    for (index, point) in element.points().enumerate() {
+        let gradient = point.gradient(displacement);
+        let f: Tensor<D> = tensor::build(|i, j| gradient[i][j] + if i == j { 1.0 } else { 0.0 });
+        let determinant = small::determinant(&f);
+        if determinant.is_nan() {
+            return (determinant, index);
+        }
+        if determinant < smallest.0 {
+            smallest = (determinant, index);
+        }
+    }
+    smallest
 }
 
 /// Strain energy (W(grad d), 1) `[J, in 2D J/m]`.

@@ -35,6 +35,7 @@ mod factor;
 mod newton;
 mod probe;
 mod tensor;
+mod worst;
 
 pub use error::StructureError;
 pub use load::{BodyForce, VectorField};
@@ -44,3 +45,4 @@ pub use solver::StructureSolver;
 pub use space::Space;
 pub use state::StructureState;
 pub use step::TimeScheme;
+pub use worst::WorstEquation;

@@ -190,11 +190,13 @@ impl<const D: usize> StructureSolver<D> {
     /// Steps a structure alone to `time` `[s]` by one step of size `dt` `[s]`: Newton to convergence, then commit.
     ///
     /// # Errors
-    /// When Newton fails; the step is then given up.
+    /// When Newton fails, or the solution turns an element inside out; the step is then given up.
     pub fn advance(&mut self, time: f64, dt: f64) -> Result<Report, Failure<StructureError>> {
         self.begin_step(time, dt);
         let settings = self.settings.newton;
-        let report = newton::solve(self, &settings, Limit::ToConvergence, |_, _| Verdict::Continue);
+        let report = newton::solve(self, &settings, Limit::ToConvergence, |_, _| Verdict::Continue).and_then(
+            |report| self.check_orientation().map(|()| report).map_err(|source| folded(&report, source)),
+        );
         match report {
             Ok(_) => self.commit(),
             Err(_) => self.rewind(),
@@ -371,6 +373,11 @@ impl<const D: usize> Work<D> {
             local: assembly.local(),
         }
     }
+}
+
+/// A solution that is none, found in the last iteration.
+fn folded(report: &Report, source: StructureError) -> Failure<StructureError> {
+    Failure::Problem { iteration: report.iterations, source }
 }
 
 fn prescribed_dofs<const D: usize>(nodes: usize, clamped: &[usize]) -> Vec<bool> {

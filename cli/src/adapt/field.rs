@@ -26,6 +26,15 @@ pub trait Field: Problem {
     /// When the data leads to an impossible state, such as an inverted element of the fluid mesh.
     fn impose(&mut self, input: &[f64]) -> Result<(), Self::Error>;
 
+    /// Whether a converged iterate is a state that can be.
+    ///
+    /// # Errors
+    /// When it is not, such as matter turned inside out.
+    fn verify(&mut self) -> Result<(), Self::Error>;
+
+    /// The equation that misses its balance most after the last assembly, in words.
+    fn worst_equation(&self) -> Option<String>;
+
     /// Interface output of the last assembled iterate.
     fn output(&self, output: &mut [f64]);
 

@@ -10,7 +10,7 @@ use partita_structure::{StructureError, StructureSolver, StructureState};
 use super::Field;
 
 macro_rules! field {
-    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr) => {
+    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr, $verify:expr) => {
         impl Field for $solver {
             type State = $state;
             const NAME: &'static str = $name;
@@ -20,6 +20,12 @@ macro_rules! field {
             }
             fn impose(&mut self, input: &[f64]) -> Result<(), $error> {
                 $result(Self::impose(self, input))
+            }
+            fn verify(&mut self) -> Result<(), $error> {
+                $verify(self)
+            }
+            fn worst_equation(&self) -> Option<String> {
+                Self::worst_equation(self).map(|worst| worst.to_string())
             }
             fn output(&self, output: &mut [f64]) {
                 Self::output(self, output);
@@ -56,6 +62,6 @@ macro_rules! field {
     };
 }
 
-field!(FluidSolver<2>, FluidState, FluidError, "fluid", identity);
+field!(FluidSolver<2>, FluidState, FluidError, "fluid", identity, |_: &mut Self| Ok(()));
 // No interface data can break a structure before its equations are solved.
-field!(StructureSolver<2>, StructureState, StructureError, "structure", Ok);
+field!(StructureSolver<2>, StructureState, StructureError, "structure", Ok, Self::check_orientation);

@@ -2,6 +2,11 @@
 
 use super::{Bound, ResidualNorm};
 
+/// Where a residual came from before it was lost.
+fn way(before: Option<&(ResidualNorm, ResidualNorm)>) -> String {
+    before.map_or_else(String::new, |(entry, last)| format!(", from {entry} at the entry and {last} before"))
+}
+
 /// A Newton loop that ended without a usable iterate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure<E> {
@@ -15,14 +20,16 @@ pub enum Failure<E> {
     },
     /// The residual is infinite or not a number.
     #[error(
-        "Newton iteration {iteration}: the residual is not finite: {residual}\n\
-         hint: check the input of this call, or take a smaller time step"
+        "Newton iteration {iteration}: the residual is not finite: {residual}{}\n\
+         hint: check the input of this call, or take a smaller time step", way(before.as_ref())
     )]
     NotFinite {
         /// The iteration, from 1; 0 is the evaluation at the entry.
         iteration: usize,
         /// The residual there.
         residual: ResidualNorm,
+        /// The residual at the entry and the last one that was finite; nothing at the entry itself.
+        before: Option<(ResidualNorm, ResidualNorm)>,
     },
     /// The residual exploded.
     #[error(

@@ -60,7 +60,7 @@ pub fn solve<P: Problem>(
         Limit::AtMost(iterations) => iterations,
         Limit::ToConvergence => settings.max_iterations,
     };
-    let entry = assemble(problem, 0, most > 0)?;
+    let entry = assemble(problem, 0, most > 0, None)?;
     let mut report = Report::at_entry(entry);
     let mut watch = Watch::new(entry);
     report.converged = !lagged && bound.met(&entry);
@@ -69,7 +69,7 @@ pub fn solve<P: Problem>(
         let before = report.exit;
         problem.solve_and_update().map_err(|source| Failure::Problem { iteration: index, source })?;
         let is_last = index == most || (lagged && bound.met(&before));
-        let residual = assemble(problem, index, !is_last)?;
+        let residual = assemble(problem, index, !is_last, Some((entry, before)))?;
         report.count(residual);
         report.converged = bound.met(if lagged { &before } else { &residual });
         watch.check_growth(index, residual, settings.divergence_factor)?;
@@ -92,9 +92,10 @@ fn assemble<P: Problem>(
     problem: &mut P,
     iteration: usize,
     with_tangent: bool,
+    before: Option<(ResidualNorm, ResidualNorm)>,
 ) -> Result<ResidualNorm, Failure<P::Error>> {
     let residual = problem.assemble(with_tangent).map_err(|source| Failure::Problem { iteration, source })?;
-    if residual.is_finite() { Ok(residual) } else { Err(Failure::NotFinite { iteration, residual }) }
+    if residual.is_finite() { Ok(residual) } else { Err(Failure::NotFinite { iteration, residual, before }) }
 }
 
 impl Report {

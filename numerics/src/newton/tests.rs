@@ -312,6 +312,13 @@ fn failures_of_the_problem_name_their_iteration() {
 
 #[test]
 fn messages_end_in_a_hint() {
+    let lost = Script::new(&[1.0, 4.0, f64::NAN]).run(Check::Before, Limit::ToConvergence).unwrap_err();
+    assert_eq!(
+        lost.to_string(),
+        "Newton iteration 2: the residual is not finite: NaN (relative NaN), \
+         from 1.000e0 (relative 1.000e0) at the entry and 4.000e0 (relative 4.000e0) before\n\
+         hint: check the input of this call, or take a smaller time step"
+    );
     let residual = ResidualNorm::new(3.0, 12.0);
     let failure: Failure<Broken> =
         Failure::Stagnated { iteration: 7, residual, bound: Bound::Relative(1e-10) };

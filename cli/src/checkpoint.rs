@@ -137,13 +137,25 @@ pub fn save<T: Serialize>(dir: &Path, stamp: &Stamp, state: &T) -> Result<(), Ch
         let path = path.to_owned();
         move |source| CheckpointError::File { path, source }
     };
-    write_through(&temporary, &bytes).map_err(fail(&temporary))?;
+    write_through(&temporary, &bytes).map_err(|source| {
+        // Half a checkpoint only takes space.
+        let _ = fs::remove_file(&temporary);
+        fail(&temporary)(source)
+    })?;
     match fs::rename(&latest, &previous) {
         Err(error) if error.kind() != ErrorKind::NotFound => return Err(fail(&previous)(error)),
         _ => {}
     }
     fs::rename(&temporary, &latest).map_err(fail(&latest))?;
     synchronize_folder(dir).map_err(fail(dir))
+}
+
+/// Bytes of a checkpoint of `state`.
+///
+/// # Errors
+/// When the state cannot be encoded.
+pub fn encoded_len<T: Serialize>(stamp: &Stamp, state: &T) -> Result<usize, CheckpointError> {
+    encode(stamp, state).map(|bytes| bytes.len()).map_err(|source| CheckpointError::Encode { source })
 }
 
 /// Reads the latest checkpoint in the folder of a run, or the one before when the latest is not usable.

@@ -7,6 +7,7 @@ use partita_structure::StructureSolver;
 
 use crate::build::Run;
 use crate::output::fields::{Series, Snapshot, Tessellation};
+use crate::output::space::Estimate;
 use crate::output::{OutputError, RunWriter};
 
 /// Draws both fields; the lines of the structure's drawing are cut once.
@@ -24,6 +25,23 @@ impl Drawing {
             Tessellation::new([&breakpoints[0], &breakpoints[1]], subdivisions)
         };
         Self { structure: run.second().field().map(tessellate) }
+    }
+
+    /// Adds `files` drawings of `run` to what it will write.
+    #[must_use]
+    pub(crate) fn add_to(&self, mut estimate: Estimate, run: &Run, files: usize) -> Estimate {
+        if let Some(fluid) = run.first().field() {
+            // Velocity and pressure; where the mesh moves, points, displacement and mesh velocity too.
+            let numbers = if fluid.mesh_quality().is_some() { 9 } else { 3 };
+            let mesh = fluid.mesh();
+            estimate = estimate.with_fields(files, mesh.points().len(), numbers, mesh.cells().len());
+        }
+        if let Some(tessellation) = &self.structure {
+            // Points, displacement and velocity.
+            let (points, cells) = (tessellation.parameters().len(), tessellation.cells().len());
+            estimate = estimate.with_fields(files, points, 6, cells);
+        }
+        estimate
     }
 
     /// Writes the fields at the end of step `step`, at `time` \[s\].

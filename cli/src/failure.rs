@@ -10,6 +10,7 @@ use partita::checkpoint::CheckpointError;
 use partita::output::{self, OutputError};
 use partita::scene::SceneError;
 use partita::session::RunError;
+use partita_mesh::vtu::VtuError;
 
 /// The scene or the command line is wrong.
 const WRONG_INPUT: u8 = 2;
@@ -35,11 +36,13 @@ impl Failure {
     /// What keeps a run from starting is the command line's fault: its folder cannot be used.
     pub(crate) fn before_the_first_step(error: RunError) -> Self {
         match error {
-            RunError::Output(error @ OutputError::Write { .. }) => Self {
+            RunError::Output(
+                error @ (OutputError::Write { .. } | OutputError::Fields(VtuError::Write { .. })),
+            ) => Self {
                 code: WRONG_INPUT,
                 report: Complaint {
                     what: Complaint::from_display(&error).what,
-                    hint: "name a folder that can be written with --out".to_owned(),
+                    hint: "name a folder that can be written, on a disk with space, with --out".to_owned(),
                 }
                 .into(),
             },
@@ -87,7 +90,7 @@ impl From<OutputError> for Failure {
                 }
                 .into(),
             },
-            OutputError::Foreign { .. } | OutputError::InUse { .. } => {
+            OutputError::Foreign { .. } | OutputError::InUse { .. } | OutputError::NoSpace { .. } => {
                 Self { code: WRONG_INPUT, report: Complaint::from_display(&error).into() }
             }
             _ => Self { code: FAILED_RUN, report: Complaint::from_display(&error).into() },

@@ -74,7 +74,7 @@ fn options(manner: &Manner) -> Options<'static> {
 fn finish(session: Session<'_>, dir: &Path, manner: &Manner) -> Result<ExitCode, Failure> {
     let summary = session.finish().inspect_err(|error| {
         // Where a summary was asked for there is one of a failed run too.
-        if let (RunError::Step(_), true) = (error, manner.json) {
+        if let (RunError::Step(_) | RunError::Storage { .. }, true) = (error, manner.json) {
             let _ = fs::read_to_string(dir.join(output::SUMMARY)).map(|summary| print(&summary));
         }
     })?;

@@ -1,7 +1,7 @@
 //! A run from its first step, or its checkpoint, to its end: the time loop, and what is written on the way.
 
 use std::error::Error;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use partita_coupling::{IterationRecord, MarchState, Observer, StepError, StepRecord};
@@ -11,9 +11,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::adapt::SlotState;
 use crate::build::{self, BuildError, Run};
-use crate::checkpoint::{self, CheckpointError};
+use crate::checkpoint::{self, CheckpointError, Stamp};
 use crate::draw::Drawing;
-use crate::output::{Clock, Ending, OutputError, RunWriter, Summary};
+use crate::output::space::Estimate;
+use crate::output::{Clock, Ending, OutputError, RunWriter, Spent, Summary};
 use crate::probe::Probes;
 use crate::progress::Progress;
 use crate::scene::Resolved;
@@ -42,6 +43,20 @@ pub enum RunError {
     /// The output folder.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// What a step came to could not be written.
+    #[error("step {step} (t = {time} s), output: {}\nhint: see that the folder can be written and has space; {}", first_line(source), way_back(dir, *checkpoint))]
+    Storage {
+        /// The last step that was solved.
+        step: usize,
+        /// The time at its end \[s\].
+        time: f64,
+        /// The run's folder.
+        dir: PathBuf,
+        /// The step of its last checkpoint.
+        checkpoint: Option<usize>,
+        /// Which file, and why.
+        source: Box<RunError>,
+    },
     /// The checkpoint.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
@@ -71,6 +86,8 @@ pub struct Session<'a> {
     drawing: Drawing,
     writer: RunWriter,
     options: Options<'a>,
+    /// The step of the last checkpoint in the folder.
+    saved: Option<usize>,
     /// What the user should know before the first step.
     note: Option<String>,
 }
@@ -80,7 +97,7 @@ impl<'a> Session<'a> {
     /// program started. Nothing is written when the scene cannot be built.
     ///
     /// # Errors
-    /// When the scene cannot be built or the folder not be written.
+    /// When the scene cannot be built, the folder not be written, or its disk has less space than the run will fill.
     pub fn start(
         resolved: &'a Resolved,
         dir: &Path,
@@ -91,18 +108,20 @@ impl<'a> Session<'a> {
         let scene = &resolved.scene;
         let probes = Probes::new(&scene.output.probes, &run);
         let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
+        estimate(&run, resolved, &drawing, options).check(dir)?;
         let mut writer = RunWriter::create(dir, &resolved.to_toml(), probes.columns(), clock)?;
         writer.keep(&resolved.shapes.inputs)?;
         if scene.output.fields_every > 0 {
             drawing.write(&run, &mut writer, 0, 0.0)?;
         }
-        Ok(Self { run, resolved, scene, probes, drawing, writer, options, note: None })
+        Ok(Self { run, resolved, scene, probes, drawing, writer, options, saved: None, note: None })
     }
 
     /// Takes up the run in the folder `dir`, which holds this scene, at its checkpoint.
     ///
     /// # Errors
-    /// When there is no usable checkpoint, or the folder does not fit it.
+    /// When there is no usable checkpoint, the folder does not fit it, or the disk has less space than the rest of the
+    /// run will fill.
     pub fn resume(
         resolved: &'a Resolved,
         dir: &Path,
@@ -115,20 +134,22 @@ impl<'a> Session<'a> {
         let scene = &resolved.scene;
         let probes = Probes::new(&scene.output.probes, &run);
         let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
+        estimate(&run, resolved, &drawing, options).check(dir)?;
         let writer = RunWriter::resume(dir, &checkpoint.stamp, probes.columns(), clock)?;
         let step = checkpoint.stamp.step;
         let note = checkpoint.latest_unusable.map(|error| {
             format!("the latest checkpoint is not usable, the run goes on after step {step}\n{error}")
         });
-        Ok(Self { run, resolved, scene, probes, drawing, writer, options, note })
+        Ok(Self { run, resolved, scene, probes, drawing, writer, options, saved: Some(step), note })
     }
 
     /// Steps to the end of the scene, or to where the options say, and writes the summary.
     ///
-    /// A step that fails leaves its iterations, a checkpoint and the fields before it in the folder.
+    /// A step that fails leaves its iterations, a checkpoint and the fields before it in the folder. Where the folder takes
+    /// no more, it holds whole files up to its last checkpoint, and the run can be resumed from there.
     ///
     /// # Errors
-    /// When a step cannot be solved, or the folder not be written.
+    /// When a step cannot be solved, or what it came to not be written.
     pub fn finish(mut self) -> Result<Summary, RunError> {
         let last =
             self.options.steps.map_or(self.scene.time.steps.get(), |s| s.min(self.scene.time.steps.get()));
@@ -136,21 +157,44 @@ impl<'a> Session<'a> {
         if let Some(note) = &self.note {
             progress.say(note);
         }
-        let outcome = self.march_to(last, &mut progress);
+        let outcome = self.march_to(last, &mut progress).and_then(|ending| {
+            self.save_if_wanted()?;
+            Ok(ending)
+        });
         progress.finish();
-        let ending = match &outcome {
-            Ok(ending) => *ending,
-            Err(RunError::Step(_)) => {
-                self.draw()?;
-                Ending::Failed
-            }
-            Err(_) => return Err(outcome.expect_err("just seen")),
-        };
-        if self.scene.output.checkpoint_every > 0 {
-            self.save()?;
+        match outcome {
+            Ok(ending) => Ok(self.writer.finish(ending)?),
+            Err(error @ RunError::Step(_)) => Err(self.give_up(error, &progress)),
+            Err(error) => Err(self.break_off(error)),
         }
-        let summary = self.writer.finish(ending)?;
-        outcome.map(|_| summary)
+    }
+
+    /// Writes what a failed step leaves: the fields and the checkpoint before it, and the summary. What cannot be written
+    /// is said, but the step's error is the one that counts.
+    fn give_up(mut self, error: RunError, progress: &Progress) -> RunError {
+        let drawn = self.draw().map_err(RunError::from);
+        let saved = self.save_if_wanted();
+        let summed = self.writer.fail(first_line(&error)).map(drop).map_err(RunError::from);
+        for lost in [drawn, saved, summed].into_iter().filter_map(Result::err) {
+            progress.say(&format!("warning: {}", first_line(&lost)));
+        }
+        error
+    }
+
+    /// The folder takes no more: says where the run can be taken up again. The files are left as they are, for a later
+    /// checkpoint would be ahead of them.
+    fn break_off(self, error: RunError) -> RunError {
+        let clock = self.run.clock();
+        let error = RunError::Storage {
+            step: clock.steps,
+            time: clock.time,
+            dir: self.writer.dir().to_owned(),
+            checkpoint: self.saved,
+            source: Box::new(error),
+        };
+        // A small file may still fit; that it does not is no news.
+        let _ = self.writer.fail(first_line(&error));
+        error
     }
 
     fn march_to(&mut self, last: usize, progress: &mut Progress) -> Result<Ending, RunError> {
@@ -183,15 +227,61 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
+    /// Draws the committed state, unless that is there already.
     fn draw(&mut self) -> Result<(), OutputError> {
         let clock = self.run.clock();
+        if self.writer.shows(clock.time) {
+            return Ok(());
+        }
         self.drawing.write(&self.run, &mut self.writer, clock.steps, clock.time)
     }
 
     fn save(&mut self) -> Result<(), RunError> {
         let clock = self.run.clock();
         let stamp = self.writer.stamp(clock.steps, clock.time)?;
-        Ok(checkpoint::save(self.writer.dir(), &stamp, &RunState::of(&self.run, self.resolved))?)
+        checkpoint::save(self.writer.dir(), &stamp, &RunState::of(&self.run, self.resolved))?;
+        self.saved = Some(clock.steps);
+        Ok(())
+    }
+
+    fn save_if_wanted(&mut self) -> Result<(), RunError> {
+        if self.scene.output.checkpoint_every > 0 { self.save() } else { Ok(()) }
+    }
+}
+
+/// Coupling iterations that a step is taken to need when its records are estimated.
+const ITERATIONS_A_STEP: usize = 8;
+
+/// What the rest of `run` will write, roughly.
+fn estimate(run: &Run, resolved: &Resolved, drawing: &Drawing, options: Options) -> Estimate {
+    let scene = &resolved.scene;
+    let all = scene.time.steps.get();
+    let steps = options.steps.map_or(all, |steps| steps.min(all)).saturating_sub(run.clock().steps);
+    let iterations = if scene.coupling.is_some() { ITERATIONS_A_STEP } else { 1 };
+    let mut estimate = Estimate::of_records(steps, iterations);
+    if let Some(files) = steps.checked_div(scene.output.fields_every) {
+        estimate = drawing.add_to(estimate, run, files);
+    }
+    if scene.output.checkpoint_every > 0 {
+        let stamp = Stamp { step: 0, time: 0.0, spent: Spent::default() };
+        let bytes = checkpoint::encoded_len(&stamp, &RunState::of(run, resolved));
+        estimate = estimate.with_checkpoints(bytes.unwrap_or_default());
+    }
+    estimate
+}
+
+/// What happened, without the hint.
+fn first_line(error: &RunError) -> String {
+    error.to_string().lines().next().unwrap_or_default().to_owned()
+}
+
+fn way_back(dir: &Path, checkpoint: Option<usize>) -> String {
+    let dir = dir.display();
+    match checkpoint {
+        Some(step) => {
+            format!("`partita resume {dir}` then goes on after step {step}, that of the last checkpoint")
+        }
+        None => format!("there is no checkpoint in {dir} yet: start the run again with --force"),
     }
 }
 
@@ -240,23 +330,22 @@ struct Watch<'a> {
 }
 
 impl Watch<'_> {
-    fn keep(&mut self, result: Result<(), OutputError>) {
-        if let Err(error) = result {
-            self.refused.get_or_insert(error);
+    /// Writes, unless the folder has refused before: behind half a line nothing can be read.
+    fn write(&mut self, write: impl FnOnce(&mut RunWriter) -> Result<(), OutputError>) {
+        if self.refused.is_none() {
+            self.refused = write(self.writer).err();
         }
     }
 }
 
 impl Observer for Watch<'_> {
     fn iteration(&mut self, record: &IterationRecord) {
-        let written = self.writer.iteration(record);
-        self.keep(written);
+        self.write(|writer| writer.iteration(record));
         self.progress.iteration(record);
     }
 
     fn step_finished(&mut self, record: &StepRecord) {
-        let written = self.writer.step(record);
-        self.keep(written);
+        self.write(|writer| writer.step(record));
         self.progress.step(record);
     }
 }

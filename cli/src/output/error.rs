@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use partita_mesh::vtu::VtuError;
 
+use super::space::{Estimate, size};
+
 /// Why a run's output cannot be written or taken up again.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
@@ -23,6 +25,16 @@ pub enum OutputError {
         path: PathBuf,
         /// What the system says.
         source: io::Error,
+    },
+    /// The disk has less space than the run will fill.
+    #[error("the run will write about {} to {dir}, where {} are free (fields {}, records and tables {}, checkpoints {})\nhint: write fields less often (output.fields_every), make space, or choose another folder with --out", size(estimate.total()), size(*free), size(estimate.fields), size(estimate.records), size(estimate.checkpoints), dir = dir.display())]
+    NoSpace {
+        /// The folder.
+        dir: PathBuf,
+        /// What the run will write.
+        estimate: Estimate,
+        /// Bytes that are free.
+        free: u64,
     },
     /// The folder is in use.
     #[error("{dir} is not empty\nhint: choose another folder with --out; --force replaces an earlier run, never other files", dir = dir.display())]

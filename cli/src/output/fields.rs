@@ -84,6 +84,12 @@ impl FieldFiles {
         Ok(files)
     }
 
+    /// The time \[s\] of the last files.
+    pub(super) fn last_time(&self) -> Option<f64> {
+        let last = |collection: &PvdCollection| collection.entries().last().map(|entry| entry.time);
+        self.collections.iter().flatten().filter_map(last).reduce(f64::max)
+    }
+
     pub(super) fn write<const D: usize>(
         &mut self,
         series: Series,

@@ -21,6 +21,7 @@ pub mod fields;
 mod input;
 mod lines;
 mod record;
+pub mod space;
 mod summary;
 pub mod table;
 
@@ -98,11 +99,13 @@ impl RunWriter {
         if fs::read_dir(dir).map_err(refused)?.next().is_some() {
             return Err(OutputError::Occupied { dir: dir.to_owned() });
         }
+        // First: it marks the folder as a run's, which --force may replace.
+        let records = LineFile::create(dir.join(RECORDS))?;
         let path = dir.join(SCENE);
         fs::write(&path, scene).map_err(|source| OutputError::Write { path, source })?;
         Ok(Self {
             dir: dir.to_owned(),
-            records: LineFile::create(dir.join(RECORDS))?,
+            records,
             iterations: CsvFile::create(dir.join(ITERATIONS), record::iteration_columns())?,
             steps: CsvFile::create(dir.join(STEPS), record::step_columns())?,
             probes: CsvFile::create(dir.join(PROBES), record::probe_columns(probes))?,
@@ -209,6 +212,12 @@ impl RunWriter {
         self.timed(|run| run.fields.write(series, step, time, snapshot))
     }
 
+    /// Whether the fields at `time` \[s\] are the last ones that were written.
+    #[must_use]
+    pub fn shows(&self, time: f64) -> bool {
+        self.fields.last_time() == Some(time)
+    }
+
     /// The mark of a checkpoint taken now, at the end of a step. Records and tables are on the disk when this returns,
     /// so that a checkpoint is never ahead of them.
     ///
@@ -239,10 +248,27 @@ impl RunWriter {
     /// # Errors
     /// What the system refuses.
     pub fn finish(self, ending: Ending) -> Result<Summary, OutputError> {
-        let summary = Summary::new(ending, &self.totals, &self.clock.spent());
+        self.write_summary(Summary::new(ending, &self.totals, &self.clock.spent()))
+    }
+
+    /// Writes the `summary.json` of a run that failed, and returns what it says.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn fail(self, cause: String) -> Result<Summary, OutputError> {
+        self.write_summary(Summary::failed(&self.totals, &self.clock.spent(), cause))
+    }
+
+    fn write_summary(&self, summary: Summary) -> Result<Summary, OutputError> {
         let path = self.dir.join(SUMMARY);
-        fs::write(&path, summary.to_json()).map_err(|source| OutputError::Write { path, source })?;
-        Ok(summary)
+        match fs::write(&path, summary.to_json()) {
+            Ok(()) => Ok(summary),
+            Err(source) => {
+                // Half a summary is none.
+                let _ = fs::remove_file(&path);
+                Err(OutputError::Write { path, source })
+            }
+        }
     }
 
     fn timed(&mut self, write: impl FnOnce(&mut Self) -> Result<(), OutputError>) -> Result<(), OutputError> {

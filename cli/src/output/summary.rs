@@ -17,7 +17,7 @@ pub enum Ending {
     Stopped,
     /// It was interrupted from outside; it can be resumed.
     Interrupted,
-    /// A step could not be solved.
+    /// A step could not be solved, or what it came to not be written.
     Failed,
 }
 
@@ -156,12 +156,15 @@ fn peak_in_status(status: &str) -> Option<u64> {
 }
 
 /// `summary.json`. Whatever depends on the machine stands in the last four fields.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Whether the run did not fail and every step met its criterion.
     pub converged: bool,
     /// How it ended.
     pub ending: Ending,
+    /// Why a failed run failed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cause: Option<String>,
     /// Finished steps, all sessions.
     pub steps: usize,
     /// Those among them that ended on the iteration bound and were accepted.
@@ -189,6 +192,7 @@ impl Summary {
         Self {
             converged: ending != Ending::Failed && totals.unconverged_steps == 0,
             ending,
+            cause: None,
             steps: totals.steps,
             unconverged_steps: totals.unconverged_steps,
             coupling_iterations: totals.coupling_iterations,
@@ -201,8 +205,14 @@ impl Summary {
         }
     }
 
-    pub(super) fn to_json(self) -> String {
-        serde_json::to_string_pretty(&self).expect("a summary is plain data") + "\n"
+    /// The summary of a failed run, with its cause.
+    #[must_use]
+    pub fn failed(totals: &Totals, spent: &Spent, cause: String) -> Self {
+        Self { cause: Some(cause), ..Self::new(Ending::Failed, totals, spent) }
+    }
+
+    pub(super) fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("a summary is plain data") + "\n"
     }
 
     /// The table that a run prints at its end.

@@ -2,6 +2,7 @@
 
 mod beam;
 mod checkpoint;
+mod failures;
 mod output;
 mod program;
 mod scene;

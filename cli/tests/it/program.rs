@@ -10,33 +10,36 @@ use serde_json::Value;
 use crate::scene::SOUND;
 
 /// What a call of the program came to.
-struct Outcome {
-    code: i32,
-    stdout: String,
-    stderr: String,
+pub(crate) struct Outcome {
+    pub(crate) code: i32,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
 }
 
-/// Calls the program in a folder, as from a pipe: no colours, no bar.
-fn partita(folder: &Path, arguments: &[&str]) -> Outcome {
-    let output = Command::new(env!("CARGO_BIN_EXE_partita"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .expect("the program starts");
-    let text = |bytes| String::from_utf8(bytes).expect("the program writes UTF-8");
-    Outcome {
-        code: output.status.code().expect("the program ends by itself"),
-        stdout: text(output.stdout),
-        stderr: text(output.stderr),
+impl Outcome {
+    /// Waits for a program to end.
+    pub(crate) fn of(command: &mut Command) -> Self {
+        let output = command.output().expect("the program starts");
+        let text = |bytes| String::from_utf8(bytes).expect("the program writes UTF-8");
+        Self {
+            code: output.status.code().expect("the program ends by itself"),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
     }
 }
 
-fn tank() -> String {
+/// Calls the program in a folder, as from a pipe: no colours, no bar.
+pub(crate) fn partita(folder: &Path, arguments: &[&str]) -> Outcome {
+    Outcome::of(Command::new(env!("CARGO_BIN_EXE_partita")).args(arguments).current_dir(folder))
+}
+
+pub(crate) fn tank() -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/elastic-bottom").display().to_string()
 }
 
 /// A new folder with a scene in it.
-fn folder_with(scene: &str) -> (tempfile::TempDir, PathBuf) {
+pub(crate) fn folder_with(scene: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("case.toml");
     fs::write(&file, scene).expect("the scene is written");
@@ -44,7 +47,7 @@ fn folder_with(scene: &str) -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-fn entries(folder: &Path) -> Vec<String> {
+pub(crate) fn entries(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = fs::read_dir(folder)
         .expect("the folder is there")
         .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())

@@ -3,8 +3,8 @@
 use partita_coupling::models::tank::Tank;
 use partita_coupling::models::tube::Tube;
 use partita_coupling::{
-    Acceleration, AtLimit, CouplingSettings, Criterion, IdentityTransfer, March, MatrixTransfer, NewtonLimit,
-    ParticipantError, Policy, Record, SetupError, StepFailure,
+    Acceleration, AtLimit, CouplingSettings, Criterion, Effort, IdentityTransfer, March, MatrixTransfer,
+    NewtonLimit, ParticipantError, Policy, Record, SetupError, StepFailure,
 };
 
 use crate::support::{Spoiled, all_accelerations, fixed, imvls, march, settings, tank, tube};
@@ -338,5 +338,97 @@ fn unequal_resolutions_keep_the_virtual_work_in_every_iteration() {
         let (sent, received): (f64, f64) =
             (interface.load.iter().sum(), interface.transferred_load.iter().sum());
         assert!((sent - received).abs() < 1e-13 * sent.abs(), "{sent} N/m sent, {received} N/m received");
+    }
+}
+
+/// The default tank multiplies the residual of an unrelaxed iteration by more than one.
+fn unrelaxed(at_limit: AtLimit) -> CouplingSettings {
+    CouplingSettings { at_limit, ..settings(Acceleration::Constant { omega: 1.0 }) }
+}
+
+#[test]
+fn a_diverging_step_ends_long_before_the_bound_and_leaves_no_trace() {
+    for at_limit in [AtLimit::Fail, AtLimit::Accept] {
+        let mut run = tank(&Tank::default(), 12, &unrelaxed(at_limit));
+        let mut seen: Vec<Record> = Vec::new();
+        let error = run.step(0.01, &mut seen).unwrap_err();
+        let StepFailure::Diverges { growth, field: None } = &*error.cause else { panic!("{error}") };
+        assert!(error.iteration < 20, "{error}");
+        assert_eq!(
+            (error.iteration, growth.at, seen.len()),
+            (growth.at, error.history.iterations.len(), growth.at)
+        );
+        assert_eq!((growth.since, run.clock().steps), (1, 0));
+        let message = error.to_string();
+        let expected = format!(
+            "step 1 (t = 0.01 s), coupling iteration {}, interface: the coupling iteration diverges: |r| grew from ",
+            growth.at
+        );
+        assert!(
+            message.starts_with(&expected) && message.contains("\nhint: take a smaller relaxation"),
+            "{message}"
+        );
+        assert_eq!(run.step(0.01, &mut ()).unwrap_err().to_string(), message, "tried again, it fails alike");
+    }
+}
+
+#[test]
+fn a_field_that_breaks_under_a_growing_residual_is_not_to_blame() {
+    let broken_at = |broken: usize| {
+        let (fluid, bottom) = (Tank::default().fluid(12).unwrap(), Tank::default().bottom(12).unwrap());
+        let fluid = Spoiled::new(fluid, move |call, _, _| {
+            let error = ParticipantError::new("fluid", "cell 7 is inverted").with_hint("smaller time steps");
+            if call == broken { Err(error) } else { Ok(()) }
+        });
+        march(fluid, bottom, &unrelaxed(AtLimit::Fail)).step(0.01, &mut ()).unwrap_err()
+    };
+    assert_eq!(
+        broken_at(1).to_string(),
+        "step 1 (t = 0.01 s), coupling iteration 1, fluid: cell 7 is inverted\nhint: smaller time steps"
+    );
+    let error = broken_at(4);
+    let StepFailure::Diverges { growth, field: Some(field) } = &*error.cause else { panic!("{error}") };
+    assert_eq!((error.iteration, growth.at, field.message.as_str()), (4, 3, "cell 7 is inverted"));
+    let message = error.to_string();
+    assert!(
+        message.starts_with(
+            "step 1 (t = 0.01 s), coupling iteration 4, fluid: cell 7 is inverted; the coupling iteration diverges: |r| grew"
+        ) && message.ends_with("added mass of an incompressible fluid"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_residual_that_overflows_is_not_recorded() {
+    let (flow, wall) = Tube::default().participants().unwrap();
+    let wall = Spoiled::new(wall, |_, output, _| {
+        output[3] = 1e200;
+        Ok(())
+    });
+    let mut seen: Vec<Record> = Vec::new();
+    let error = march(flow, wall, &settings(imvls())).step(DT, &mut seen).unwrap_err();
+    assert!(matches!(*error.cause, StepFailure::NotFinite { .. }), "{error}");
+    assert!(error.to_string().contains("wall: 1e200 at interface wall, point 3"), "{error}");
+    assert!(seen.is_empty());
+}
+
+#[test]
+fn a_residual_that_no_longer_falls_asks_for_another_method_not_for_more_iterations() {
+    let stuck = |_: usize, output: &mut [f64], effort: &mut Effort| {
+        output.fill(1e-3);
+        effort.converged = false;
+        Ok(())
+    };
+    for (max_iterations, hint) in
+        [(8, "hint: raise the iteration bound"), (30, "hint: more iterations will not help")]
+    {
+        let (flow, wall) = Tube::default().participants().unwrap();
+        let bound = CouplingSettings {
+            max_iterations,
+            criterion: Criterion::InterfaceResidual(partita_coupling::Bound::Absolute(f64::MIN_POSITIVE)),
+            ..settings(Acceleration::Constant { omega: 1e-9 })
+        };
+        let error = march(flow, Spoiled::new(wall, stuck), &bound).step(DT, &mut ()).unwrap_err();
+        assert!(error.to_string().contains(hint), "{error}");
     }
 }

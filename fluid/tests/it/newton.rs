@@ -3,7 +3,7 @@
 use partita_fluid::{
     BodyForce, BoundaryCondition, FluidModel, FluidSettings, FluidSolver, PressurePin, Tangent, TimeScheme,
 };
-use partita_numerics::newton::{self, Bound, Check, Limit, Verdict};
+use partita_numerics::newton::{self, Bound, Check, Limit, Problem, Verdict};
 
 use crate::common::*;
 
@@ -177,4 +177,23 @@ fn uniform_flow_is_converged_though_all_its_terms_vanish() {
         fluid.commit();
     }
     assert!(velocity_error(&fluid, stream) < 1e-15);
+}
+
+#[test]
+fn the_worst_equation_is_where_the_balance_is_missed() {
+    let mut fluid = cavity(TimeScheme::Steady, Tangent::Full);
+    fluid.begin_step(1.0, 1.0).expect("a step");
+    let middle = fluid.mesh().points().iter().position(|x| *x == [0.5, 0.5]).expect("a node in the middle");
+    let mut values = fluid.values().to_vec();
+    values[3 * middle + 1] += 1e3;
+    fluid.set_values(&values).expect("finite values");
+    fluid.assemble(false).expect("a residual");
+    let worst = fluid.worst_equation().expect("an equation");
+    assert_eq!((worst.node, worst.equation), (middle, "momentum in y"));
+    assert!((worst.residual - fluid.residual()[3 * middle + 1]).abs() < 1e-12 * worst.residual.abs());
+    assert_eq!(worst.to_string(), format!("momentum in y at node {middle}, (0.5, 0.5) m"));
+    values[3 * middle] = f64::NAN;
+    fluid.set_values(&values).expect("values");
+    fluid.assemble(false).expect("a residual");
+    assert!(fluid.worst_equation().expect("an equation").residual.is_nan());
 }

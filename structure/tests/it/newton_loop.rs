@@ -2,7 +2,9 @@
 
 use partita_iga::Side;
 use partita_numerics::newton::{self, Bound, Failure, Limit, Problem, Verdict};
-use partita_structure::{BodyForce, LineSearch, StructureModel, StructureSettings, StructureSolver};
+use partita_structure::{
+    BodyForce, LineSearch, StructureError, StructureModel, StructureSettings, StructureSolver,
+};
 
 use crate::common::{bare, beam, dynamic, linear, noise, quasi_static, solver, svk};
 
@@ -257,4 +259,51 @@ fn a_step_allocates_nothing() {
         });
         assert_eq!(counted.count_total, 0, "{counted:?}");
     }
+}
+
+#[test]
+fn a_body_turned_inside_out_is_an_equilibrium_of_the_law_and_no_solution() {
+    let mirrored = |material| {
+        let mut model = bare(material);
+        model.clamped = vec![Side::LEFT];
+        let patch = beam(1.0, 0.2, 2, 4);
+        let guess: Vec<f64> = patch.control_points().iter().flat_map(|x| [-2.0 * x[0], 0.0]).collect();
+        let mut solver = solver(patch, model, quasi_static());
+        solver.begin_step(1.0, 1.0);
+        assert!(solver.check_orientation().is_ok(), "the reference configuration is whole");
+        solver.guess(&guess);
+        solver
+    };
+    let mut inside_out = mirrored(svk(1.0, 0.3));
+    // F = diag(-1, 1) leaves F^T F = I: no strain, no stress.
+    assert!(inside_out.assemble(false).unwrap().absolute < 1e-14);
+    let refusal = inside_out.check_orientation().unwrap_err();
+    let StructureError::Folded { determinant, .. } = refusal else { panic!("{refusal}") };
+    assert!((determinant + 1.0).abs() < 1e-12, "{determinant}");
+    let message = refusal.to_string();
+    assert!(message.contains(" m is turned inside out: det F = -1.000e0\nhint: "), "{message}");
+    assert!(mirrored(linear(1.0, 0.3)).check_orientation().is_ok(), "small strains know no orientation");
+}
+
+#[test]
+fn the_worst_equation_is_that_of_the_largest_free_residual() {
+    let mut solver = cantilever(0.3, quasi_static());
+    solver.begin_step(1.0, 1.0);
+    let mut pushed = solver.values().to_vec();
+    let (point, component) = (solver.interface_points()[7], 1);
+    pushed[2 * point + component] += 0.01;
+    solver.guess(&pushed);
+    solver.assemble(false).unwrap();
+    let worst = solver.worst_equation().expect("an equation");
+    let free = &solver.parts()[0].dofs;
+    assert!(free.iter().all(|&dof| solver.residual()[dof].abs() <= worst.residual.abs()));
+    assert!((solver.residual()[2 * worst.point + worst.component] - worst.residual).abs() < f64::EPSILON);
+    let [x, y] = solver.spline().control_points()[worst.point];
+    let [dx, dy] = [0, 1].map(|c| solver.values()[2 * worst.point + c]);
+    assert!((worst.place[0] - x - dx).abs() < 1e-15 && (worst.place[1] - y - dy).abs() < 1e-15);
+    // A residual that is no number is worse than any number.
+    pushed[2 * point] = f64::NAN;
+    solver.guess(&pushed);
+    solver.assemble(false).unwrap();
+    assert!(solver.worst_equation().expect("an equation").residual.is_nan());
 }

@@ -1,0 +1,229 @@
+//! Runs that fail, as a user meets them: what the message says, what is left in the folder, the exit code.
+
+use std::fs;
+use std::path::Path;
+
+use insta::assert_snapshot;
+use serde_json::Value;
+
+use crate::program::{Outcome, entries, folder_with, partita, tank};
+
+/// What a failed run has left: the iterations of the failed step, the summary, and the file of fields before it.
+struct Left {
+    iterations: usize,
+    summary: Value,
+    fields: Vec<String>,
+}
+
+fn left_in(out: &Path, failed_step: usize) -> Left {
+    let records = fs::read_to_string(out.join("run.jsonl")).expect("records");
+    let record = |line: &str| -> Value { serde_json::from_str(line).expect("whole lines of JSON") };
+    let of_failed = |line: &&str| record(line)["iteration"]["step"] == failed_step;
+    Left {
+        iterations: records.lines().filter(of_failed).count(),
+        summary: record(&fs::read_to_string(out.join("summary.json")).expect("a summary")),
+        fields: entries(&out.join("fields")),
+    }
+}
+
+/// Runs the scene in `case.toml` to its failure: exit code 3, a summary that says why, a checkpoint that can be resumed
+/// and fails in the same way.
+fn fails(folder: &Path, more: &[&str], step: usize) -> (Outcome, Left) {
+    let failed = partita(folder, &[&["run", "case.toml", "--out", "out"][..], more].concat());
+    assert_eq!(failed.code, 3, "{}{}", failed.stdout, failed.stderr);
+    assert_eq!(failed.stdout, "");
+    let out = folder.join("out");
+    let left = left_in(&out, step);
+    assert_eq!((&left.summary["ending"], &left.summary["steps"]), (&"failed".into(), &(step - 1).into()));
+    let cause = left.summary["cause"].as_str().expect("a cause");
+    assert!(cause.starts_with(&format!("step {step} (t = ")) && !cause.contains("hint"), "{cause}");
+
+    let resumed = partita(folder, &["resume", "out"]);
+    assert_eq!(
+        (resumed.code, &resumed.stderr),
+        (3, &failed.stderr),
+        "the checkpoint before the step is whole"
+    );
+    let again = left_in(&out, step);
+    assert_eq!((again.iterations, &again.fields), (left.iterations, &left.fields));
+    (failed, left)
+}
+
+/// A channel whose upper wall comes down by 1 m/s, faster than its mesh can bear.
+const FALLING_WALL: &str = r#"title = "Falling wall"
+time = { step = 0.1, steps = 5 }
+
+[fluid]
+density = 1.0
+viscosity = 1.0
+mesh.rectangle = { size = [2.0, 1.0], divisions = [4, 4], diagonals = "alternating" }
+boundary = { left = "no_slip", right = "do_nothing", top = { wall_motion = ["0", "-t"] }, bottom = "no_slip" }
+
+[output]
+fields_every = 0
+"#;
+
+#[test]
+fn a_wall_that_folds_the_mesh_ends_the_run_at_the_cell() {
+    let (_guard, folder) = folder_with(FALLING_WALL);
+    let (outcome, left) = fails(&folder, &[], 3);
+    assert_snapshot!(outcome.stderr, @"");
+    assert_eq!(left.fields, ["fluid-000002.vtu"]);
+    assert_eq!(left.iterations, 0, "the step was not opened");
+}
+
+/// A beam under a load that grows until it cannot be carried.
+const OVERLOADED: &str = r#"title = "Overloaded beam"
+time = { step = 0.1, steps = 5 }
+
+[structure]
+density = 1000.0
+body_force = ["0", "-1e4*t"]
+clamped = ["left"]
+time_scheme = "quasi_static"
+geometry.rectangle = { size = [1.0, 0.1], elements = [8, 1] }
+material.saint_venant_kirchhoff = { young_modulus = 1e6, poisson_ratio = 0.3, plane = "strain" }
+newton = { max_iterations = 5 }
+"#;
+
+#[test]
+fn a_newton_loop_at_its_bound_names_field_residuals_and_place() {
+    let (_guard, folder) = folder_with(OVERLOADED);
+    let (outcome, left) = fails(&folder, &[], 2);
+    assert_snapshot!(outcome.stderr, @"");
+    assert_eq!(left.fields, ["structure-000000.vtu", "structure-000001.vtu"]);
+}
+
+#[test]
+fn a_newton_loop_that_diverges_ends_the_run() {
+    let load = r#"structure.body_force=["0", "-1e9*t"]"#;
+    let (_guard, folder) = folder_with(OVERLOADED);
+    let (outcome, left) = fails(&folder, &["--set", load, "--set", "structure.newton.max_iterations=50"], 1);
+    assert_snapshot!(outcome.stderr, @"");
+    assert_eq!(left.fields, ["structure-000000.vtu"]);
+}
+
+#[test]
+fn a_bar_pressed_through_its_support_is_refused() {
+    let load = r#"structure.body_force=["-1e7*t", "0"]"#;
+    let (_guard, folder) = folder_with(OVERLOADED);
+    let (outcome, _) = fails(&folder, &["--set", load, "--set", "structure.newton.max_iterations=50"], 1);
+    assert_snapshot!(outcome.stderr, @"");
+}
+
+#[test]
+fn a_coupling_loop_at_its_bound_ends_the_run_with_its_iterations() {
+    let (_guard, folder) = folder_with(&fs::read_to_string(tank() + "/scene.toml").expect("the tank"));
+    let more = ["--set", "coupling.max_iterations=6", "--set", "output.fields_every=0"];
+    let (outcome, left) = fails(&folder, &more, 1);
+    assert_snapshot!(outcome.stderr, @"");
+    assert_eq!((left.iterations, left.fields.len()), (6, 2));
+}
+
+#[test]
+fn a_relaxation_too_large_for_the_added_mass_is_called_that() {
+    let (_guard, folder) = folder_with(&fs::read_to_string(tank() + "/scene.toml").expect("the tank"));
+    let more =
+        ["--set", "coupling.acceleration={constant={relaxation=1.0}}", "--set", "output.fields_every=0"];
+    let (outcome, left) = fails(&folder, &more, 1);
+    assert_snapshot!(outcome.stderr, @"");
+    assert!(left.iterations < 20, "{} iterations", left.iterations);
+}
+
+#[test]
+fn a_divergence_that_only_creeps_is_not_accepted_as_a_step() {
+    let (_guard, folder) = folder_with(&fs::read_to_string(tank() + "/scene.toml").expect("the tank"));
+    let more = [
+        "--set",
+        "coupling.acceleration={constant={relaxation=0.2}}",
+        "--set",
+        "coupling.on_limit=accept",
+        "--set",
+        "output.fields_every=0",
+    ];
+    let (outcome, _) = fails(&folder, &more, 1);
+    assert_snapshot!(outcome.stderr, @"");
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_said_before_the_first_step() {
+    let (_guard, folder) = folder_with(FALLING_WALL);
+    let run = |out: &str| {
+        let outcome = partita(&folder, &["run", "case.toml", "--out", out]);
+        assert_eq!((outcome.code, entries(&folder)), (2, vec!["case.toml".to_owned()]), "{}", outcome.stderr);
+        outcome.stderr
+    };
+    assert_snapshot!(run("case.toml"), @"");
+    assert_snapshot!(run("case.toml/below"), @"");
+    // Not even root makes folders there.
+    let refused = run("/proc/partita/run");
+    assert!(refused.contains("cannot write /proc/partita/run: ") && refused.contains("--out"), "{refused}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_run_larger_than_the_disk_is_said_before_the_first_step() {
+    let (_guard, folder) = folder_with(FALLING_WALL);
+    let endless = ["--set", "time.steps=1000000000000", "--set", "output.fields_every=1"];
+    let outcome = partita(&folder, &[&["run", "case.toml", "--out", "runs/long"][..], &endless].concat());
+    assert_eq!(outcome.code, 2, "{}", outcome.stderr);
+    assert_eq!(entries(&folder), ["case.toml"]);
+    let words: Vec<&str> = outcome.stderr.split_whitespace().collect();
+    let free = words.iter().position(|word| *word == "where").expect("both numbers") + 1;
+    let stderr = words[..free].join(" ") + " [free space] " + &words[free + 2..].join(" ");
+    assert_snapshot!(stderr, @"");
+    // The same scene for a few steps is welcome.
+    let short = [&["run", "case.toml", "--out", "runs/long", "--steps", "2"][..], &endless].concat();
+    assert_eq!(partita(&folder, &short).code, 0);
+    assert_eq!(partita(&folder, &["resume", "runs/long"]).code, 2, "nor can the rest be written");
+}
+
+/// A disk that fills up, in the shape of a largest size of files; without the signal that would end the program.
+#[cfg(unix)]
+fn partita_with_small_files(folder: &Path, blocks: usize, arguments: &str) -> Outcome {
+    let program = env!("CARGO_BIN_EXE_partita");
+    let line = format!("trap '' XFSZ; ulimit -f {blocks}; exec '{program}' {arguments}");
+    Outcome::of(std::process::Command::new("sh").args(["-c", &line]).current_dir(folder))
+}
+
+#[cfg(unix)]
+#[test]
+fn a_disk_that_fills_up_costs_no_more_than_the_steps_since_the_checkpoint() {
+    let (_guard, folder) = folder_with(FALLING_WALL);
+    let gentle = "--set fluid.boundary.top=no_slip --set time.steps=200 --set output.checkpoint_every=5";
+    let outcome = partita_with_small_files(&folder, 48, &format!("run case.toml --out out {gentle}"));
+    assert_eq!(outcome.code, 3, "{}", outcome.stderr);
+    assert_snapshot!(outcome.stderr, @"");
+    let summary = fs::read_to_string(folder.join("out/summary.json")).expect("a summary is small");
+    assert!(summary.contains("\"ending\": \"failed\"") && summary.contains("run.jsonl"), "{summary}");
+    // There is space again.
+    let resumed = partita(&folder, &["resume", "out"]);
+    assert_eq!(resumed.code, 0, "{}", resumed.stderr);
+    let records = fs::read_to_string(folder.join("out/run.jsonl")).expect("records");
+    assert_eq!(records.lines().count(), 2 * 200, "no step twice, none missing, no broken line");
+    assert!(records.lines().all(|line| serde_json::from_str::<Value>(line).is_ok()));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_checkpoint_that_does_not_fit_leaves_the_one_before() {
+    let (_guard, folder) = folder_with(&fs::read_to_string(tank() + "/scene.toml").expect("the tank"));
+    let more = "--set output.checkpoint_every=1 --set output.fields_every=0";
+    assert_eq!(
+        partita(&folder, &format!("run case.toml --out out --steps 1 {more}").split(' ').collect::<Vec<_>>())
+            .code,
+        0
+    );
+    let before = fs::read(folder.join("out/checkpoint.bin")).expect("a checkpoint");
+    let blocks = before.len() / 1024 / 2;
+    let outcome = partita_with_small_files(&folder, blocks, "resume out");
+    assert_eq!(outcome.code, 3, "{}", outcome.stderr);
+    assert!(
+        outcome.stderr.contains("checkpoint.tmp.bin") && outcome.stderr.contains("goes on after step 1"),
+        "{}",
+        outcome.stderr
+    );
+    assert_eq!(fs::read(folder.join("out/checkpoint.bin")).expect("still there"), before);
+    assert!(!folder.join("out/checkpoint.tmp.bin").exists());
+    assert_eq!(partita(&folder, &["resume", "out", "--steps", "3"]).code, 0);
+}

@@ -245,7 +245,9 @@ impl<'a> Session<'a> {
     }
 
     fn save_if_wanted(&mut self) -> Result<(), RunError> {
-        if self.scene.output.checkpoint_every > 0 { self.save() } else { Ok(()) }
+        // A second one of the same step would push the one before out of the folder.
+        let due = self.scene.output.checkpoint_every > 0 && self.saved != Some(self.run.clock().steps);
+        if due { self.save() } else { Ok(()) }
     }
 }
 

@@ -14,7 +14,7 @@ use crate::space::Space;
 pub struct WorstEquation {
     /// The control point.
     pub point: usize,
-    /// Where it is, displaced `[m]`.
+    /// Where it is in the reference configuration `[m]`: a displacement that has gone astray shows nobody anything.
     pub place: Vec<f64>,
     /// Direction of the force, 0 for x.
     pub component: usize,
@@ -25,7 +25,12 @@ pub struct WorstEquation {
 impl fmt::Display for WorstEquation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let direction = ["x", "y", "z"][self.component];
-        write!(f, "force in {direction} at control point {}, {}", self.point, shown(&self.place))
+        write!(
+            f,
+            "force in {direction} at control point {}, undeformed at {}",
+            self.point,
+            shown(&self.place)
+        )
     }
 }
 
@@ -37,8 +42,7 @@ impl<const D: usize> StructureSolver<D> {
         let dof = largest_at(residual, self.assembly.dofs().free())?;
         let Space::Patch(spline) = &self.space;
         let (point, component) = (dof / D, dof % D);
-        let (x, d) = (spline.control_points()[point], &self.trial.displacement[point * D..][..D]);
-        let place = x.iter().zip(d).map(|(x, d)| x + d).collect();
+        let place = spline.control_points()[point].to_vec();
         Some(WorstEquation { point, place, component, residual: residual[dof] })
     }
 

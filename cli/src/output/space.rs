@@ -80,7 +80,8 @@ fn free_bytes(dir: &Path) -> Option<u64> {
     let here = Path::new(".");
     let folders = dir.ancestors().map(|folder| if folder.as_os_str().is_empty() { here } else { folder });
     let stat = rustix::fs::statvfs(folders.into_iter().find(|folder| folder.exists())?).ok()?;
-    Some(stat.f_bavail.saturating_mul(stat.f_frsize))
+    // What is no disk, such as /proc, has no blocks at all.
+    (stat.f_blocks > 0).then(|| stat.f_bavail.saturating_mul(stat.f_frsize))
 }
 
 #[cfg(not(unix))]

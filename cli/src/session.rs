@@ -13,7 +13,7 @@ use crate::adapt::SlotState;
 use crate::build::{self, BuildError, Run};
 use crate::checkpoint::{self, CheckpointError, Stamp};
 use crate::draw::Drawing;
-use crate::output::space::Estimate;
+use crate::output::space::{self, Estimate};
 use crate::output::{Clock, Ending, OutputError, RunWriter, Spent, Summary};
 use crate::probe::Probes;
 use crate::progress::Progress;
@@ -267,7 +267,9 @@ fn estimate(run: &Run, resolved: &Resolved, drawing: &Drawing, options: Options)
     if scene.output.checkpoint_every > 0 {
         let stamp = Stamp { step: 0, time: 0.0, spent: Spent::default() };
         let bytes = checkpoint::encoded_len(&stamp, &RunState::of(run, resolved));
-        estimate = estimate.with_checkpoints(bytes.unwrap_or_default());
+        // Where a run is taken up there are two already, which the new ones replace.
+        let count = if run.clock().steps == 0 { space::CHECKPOINTS } else { 1 };
+        estimate = estimate.with_checkpoints(count, bytes.unwrap_or_default());
     }
     estimate
 }

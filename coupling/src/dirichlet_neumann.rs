@@ -23,9 +23,6 @@ use crate::record::{FieldRecord, FieldSeconds, IterationRecord, Seconds, StepHis
 use crate::transfer::Transfers;
 use crate::vector::{dot, norm, ratio, subtract};
 
-/// A residual that found no smaller value in so many iterations is not on its way to zero.
-const STANDSTILL: usize = 10;
-
 /// The vectors at the interface, alive as long as the run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interface {
@@ -158,7 +155,7 @@ fn lap(clock: &mut Instant) -> f64 {
 /// A field that gives up while the residual grows was given what no field can bear.
 fn explain(error: ParticipantError, history: &StepHistory) -> StepFailure {
     match divergence::suspected(history) {
-        Some(growth) => StepFailure::Diverges { growth, field: Some(error) },
+        Some(growth) => StepFailure::Diverges { growth, field: Some(Box::new(error)) },
         None => error.into(),
     }
 }
@@ -201,8 +198,6 @@ fn too_many_iterations(history: &StepHistory) -> StepFailure {
         } else {
             format!("above the own residual bound: {}", open.join(", "))
         },
-        stands_since: divergence::growth(history)
-            .map(|growth| growth.since)
-            .filter(|since| last.iteration - since >= STANDSTILL),
+        stands_since: divergence::stands_since(history),
     }
 }

@@ -25,6 +25,8 @@ pub const SUSTAINED: f64 = 1e3;
 pub const EXPLODED: f64 = 1e6;
 /// or, at the iteration bound, all of the last ones this factor.
 pub const AT_BOUND: f64 = 10.0;
+/// A residual that fell by less than a tenth in so many iterations is not on its way to zero.
+pub const STANDSTILL: usize = 10;
 /// Where a field gives up, a residual that has grown by this factor shows that the iteration is to blame.
 pub const SUSPICIOUS: f64 = 2.0;
 
@@ -68,6 +70,16 @@ pub(crate) fn growth(history: &StepHistory) -> Option<Growth> {
     let numbered = history.iterations.iter().map(|iteration| (iteration.iteration, iteration.residual));
     let (since, from) = numbered.filter(|(_, r)| *r > 0.0).min_by(|a, b| a.1.total_cmp(&b.1))?;
     Some(Growth { since, from, at, to })
+}
+
+/// The iteration of the smallest residual before the last [`STANDSTILL`] iterations, where these did not get below it to
+/// speak of.
+pub(crate) fn stands_since(history: &StepHistory) -> Option<usize> {
+    let (before, lately) =
+        history.iterations.split_at_checked(history.iterations.len().checked_sub(STANDSTILL)?)?;
+    let smallest = before.iter().min_by(|a, b| a.residual.total_cmp(&b.residual))?;
+    let falls = lately.iter().any(|iteration| iteration.residual < 0.9 * smallest.residual);
+    (!falls).then_some(smallest.iteration)
 }
 
 fn still_moves(history: &StepHistory) -> bool {
@@ -133,6 +145,14 @@ mod tests {
         history.iterations[3].relative_residual = 1e-9;
         assert_eq!(diverged(&history, false), None);
         assert_eq!(diverged(&step([0.0, 0.0, 0.0, 0.0, 1e-9, 1e-9]), false), None, "zeros set no scale");
+    }
+
+    #[test]
+    fn a_standstill_is_dated_from_the_smallest_residual() {
+        let stuck = [1.0, 0.5, 0.1].into_iter().chain((0..12).map(|k| 0.2 - 0.001 * f64::from(k)));
+        assert_eq!(stands_since(&step(stuck)), Some(3));
+        assert_eq!(stands_since(&step((0..30).map(|k| 0.95_f64.powi(k)))), None, "slow, but on its way");
+        assert_eq!(stands_since(&step([1.0; 10])), None, "too early to tell");
     }
 
     #[test]

@@ -104,7 +104,7 @@ pub enum StepFailure {
     Participant(#[from] ParticipantError),
     /// A number at the interface is not finite.
     #[error(
-        "{origin}: {value} at {place}\nhint: the coupling iteration diverges or a field returned garbage; try a smaller relaxation factor, a quasi-Newton method or another time step"
+        "{origin}: {value:e} at {place}\nhint: the coupling iteration diverges or a field returned garbage; try a smaller relaxation factor, a quasi-Newton method or another time step"
     )]
     NotFinite {
         /// Who produced it: a field's name or the acceleration.
@@ -115,13 +115,13 @@ pub enum StepFailure {
         value: f64,
     },
     /// The interface residual grows, see [`divergence`](crate::divergence).
-    #[error("{}the coupling iteration diverges: |r| grew from {:.3e} m in iteration {} to {:.3e} m in iteration {}\nhint: take a smaller relaxation factor, Aitken relaxation or a quasi-Newton method; a smaller time step does not help against the added mass of an incompressible fluid", lead(field.as_ref()), growth.from, growth.since, growth.to, growth.at)]
+    #[error("{}the coupling iteration diverges: |r| grew from {:.3e} m in iteration {} to {:.3e} m in iteration {}\nhint: take a smaller relaxation factor, Aitken relaxation or a quasi-Newton method; a smaller time step does not help against the added mass of an incompressible fluid", lead(field.as_deref()), growth.from, growth.since, growth.to, growth.at)]
     Diverges {
         /// How far it grew.
         growth: Growth,
         /// The error of the field that gave up under what the iteration proposed, if one did.
         #[source]
-        field: Option<ParticipantError>,
+        field: Option<Box<ParticipantError>>,
     },
     /// The iteration bound was reached without convergence.
     #[error(

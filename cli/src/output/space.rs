@@ -14,8 +14,8 @@ const FIELD_FILE: u64 = 2000;
 const ITERATION: u64 = 1500;
 /// Bytes of the lines that one step adds.
 const STEP: u64 = 1500;
-/// Checkpoints that lie in the folder while one is written.
-const CHECKPOINTS: u64 = 3;
+/// Checkpoints that lie in the folder while one is written: the latest, the one before, and the new one.
+pub const CHECKPOINTS: usize = 3;
 
 /// Bytes that a run will write.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -46,10 +46,10 @@ impl Estimate {
         self
     }
 
-    /// Adds checkpoints of `bytes` each.
+    /// Adds `count` checkpoints of `bytes` each.
     #[must_use]
-    pub fn with_checkpoints(mut self, bytes: usize) -> Self {
-        self.checkpoints = (bytes as u64).saturating_mul(CHECKPOINTS);
+    pub fn with_checkpoints(mut self, count: usize, bytes: usize) -> Self {
+        self.checkpoints = (bytes as u64).saturating_mul(count as u64);
         self
     }
 
@@ -120,7 +120,7 @@ mod tests {
 
     #[test]
     fn parts_add_up_and_never_overflow() {
-        let estimate = Estimate::of_records(10, 8).with_fields(5, 100, 3, 50).with_checkpoints(1000);
+        let estimate = Estimate::of_records(10, 8).with_fields(5, 100, 3, 50).with_checkpoints(3, 1000);
         assert_eq!((estimate.records, estimate.fields, estimate.checkpoints), (135_000, 27_000, 3000));
         assert_eq!(estimate.total(), 165_000);
         let endless = Estimate::of_records(usize::MAX, 8).with_fields(usize::MAX, 100, 3, 50);

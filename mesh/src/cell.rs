@@ -7,10 +7,18 @@ use std::slice::ChunksExact;
 pub enum CellKind {
     /// Two end points.
     Line2,
+    /// Two end points and a point between them.
+    Line3,
     /// Three corners, counter-clockwise.
     Triangle3,
+    /// Three corners, then a point on each of the edges `(0 1) (1 2) (2 0)`.
+    Triangle6,
     /// Four corners, counter-clockwise.
     Quadrilateral4,
+    /// Four corners, then a point on each of the edges `(0 1) (1 2) (2 3) (3 0)`.
+    Quadrilateral8,
+    /// As [`Quadrilateral8`](Self::Quadrilateral8), and a point in the middle.
+    Quadrilateral9,
     /// Four corners; seen from outside each face `(0 2 1) (0 1 3) (1 2 3) (0 3 2)` runs counter-clockwise.
     Tetrahedron4,
 }
@@ -21,8 +29,11 @@ impl CellKind {
     pub const fn node_count(self) -> usize {
         match self {
             Self::Line2 => 2,
-            Self::Triangle3 => 3,
+            Self::Line3 | Self::Triangle3 => 3,
             Self::Quadrilateral4 | Self::Tetrahedron4 => 4,
+            Self::Triangle6 => 6,
+            Self::Quadrilateral8 => 8,
+            Self::Quadrilateral9 => 9,
         }
     }
 
@@ -30,8 +41,12 @@ impl CellKind {
     #[must_use]
     pub const fn dimension(self) -> usize {
         match self {
-            Self::Line2 => 1,
-            Self::Triangle3 | Self::Quadrilateral4 => 2,
+            Self::Line2 | Self::Line3 => 1,
+            Self::Triangle3
+            | Self::Triangle6
+            | Self::Quadrilateral4
+            | Self::Quadrilateral8
+            | Self::Quadrilateral9 => 2,
             Self::Tetrahedron4 => 3,
         }
     }
@@ -41,8 +56,12 @@ impl CellKind {
     pub const fn vtk_id(self) -> u8 {
         match self {
             Self::Line2 => 3,
+            Self::Line3 => 21,
             Self::Triangle3 => 5,
+            Self::Triangle6 => 22,
             Self::Quadrilateral4 => 9,
+            Self::Quadrilateral8 => 23,
+            Self::Quadrilateral9 => 28,
             Self::Tetrahedron4 => 10,
         }
     }

@@ -50,6 +50,28 @@ pub enum MeshError {
         /// Dimension of the mesh.
         dimension: usize,
     },
+    /// Cells on which a solid cannot be solved.
+    #[error(
+        "cells of kind {found:?} do not make a solid in {dimension} dimensions\nhint: plane solids consist of triangles or quadrilaterals of degree 1 or 2; solids in space need a patch"
+    )]
+    NotSolid {
+        /// The kind as given.
+        found: CellKind,
+        /// Dimension of the mesh.
+        dimension: usize,
+    },
+    /// A cell of a solid mesh that is turned inside out, or whose curved edges or moved points fold it.
+    #[error(
+        "cell {cell} is folded near {place}: the determinant of its map is {determinant:.3e} m^2\nhint: corners run counter-clockwise, and the points on its edges stay near the middle; remesh there, or straighten the mesh"
+    )]
+    Folded {
+        /// The cell.
+        cell: usize,
+        /// The quadrature point.
+        place: Place,
+        /// Determinant of dx/dxi there.
+        determinant: f64,
+    },
     /// A coordinate that is infinite or not a number.
     #[error("node {node} has a coordinate that is not finite: {coordinates:?}\nhint: repair the mesh file")]
     NotFinite {

@@ -1,10 +1,12 @@
-//! Structured meshes of boxes: rectangles of triangles, cuboids of tetrahedra.
+//! Structured meshes of boxes: rectangles of triangles, cuboids of tetrahedra, rectangles for solids.
 
 mod cuboid;
 mod rectangle;
+mod solid_rectangle;
 
 pub use cuboid::{CuboidMesh, cuboid};
 pub use rectangle::{Diagonal, RECTANGLE_SIDES, RectangleMesh, rectangle};
+pub use solid_rectangle::{SolidRectangle, solid_rectangle};
 
 use crate::error::MeshError;
 

@@ -5,6 +5,7 @@
 //! | [`document`] | [`GmshFile`]: nodes, elements and group names as the file gives them |
 //! | [`element`] | [`ElementKind`]: the element types that are read |
 //! | [`convert`] | from the file to a [`Mesh`](crate::Mesh) of triangles or tetrahedra |
+//! | `solid` | from the file to a [`SolidMesh`](crate::SolidMesh) of triangles or quadrilaterals of degree 1 or 2 |
 //! | [`error`] | [`ParseError`], [`ConvertError`], [`ReadError`]: what went wrong and where |
 //! | [`fault`] | [`Fault`]: all that can be wrong in a file, each with a hint |
 //!
@@ -53,6 +54,7 @@ mod header;
 mod names;
 mod numbering;
 mod parser;
+mod solid;
 mod version2;
 mod version4;
 

@@ -1,4 +1,5 @@
-//! Simplex meshes for fluid-structure interaction: triangles in the plane, tetrahedra in space.
+//! Meshes for fluid-structure interaction: simplices for the fluid; triangles and quadrilaterals of degree 1 and 2 for
+//! plane solids.
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -6,6 +7,7 @@
 //! | [`cell`] | [`CellKind`], [`Cells`]: cells of one kind in one flat list of nodes |
 //! | [`generate`] | rectangles of triangles, cuboids of tetrahedra |
 //! | [`gmsh`] | reading the meshes of gmsh |
+//! | [`solid`] | [`SolidMesh`]: curved triangles and quadrilaterals, their shape functions, transfer to their boundary |
 //! | [`topology`] | boundary facets and neighbours, found from the cells |
 //! | [`facet`] | area vectors and outward normals of boundary facets |
 //! | [`simplex`] | measure, centroid and shape-function gradients of one simplex |
@@ -39,6 +41,7 @@ pub mod mesh;
 pub mod motion;
 pub mod quality;
 pub mod simplex;
+pub mod solid;
 pub mod topology;
 pub mod vtu;
 
@@ -47,4 +50,5 @@ pub use error::{MeshError, Place};
 pub use facet::Facet;
 pub use mesh::{BoundaryGroup, Mesh, NamedFacets};
 pub use motion::{MeshMotion, MotionError, MotionLaw, MotionMode, MotionQuality, MotionSettings};
+pub use solid::{SolidGroup, SolidMesh};
 pub use topology::Topology;

@@ -139,14 +139,14 @@ fn check_kind<const D: usize>(cells: &Cells) -> Result<(), MeshError> {
     Ok(())
 }
 
-fn check_finite<const D: usize>(points: &[[f64; D]]) -> Result<(), MeshError> {
+pub(crate) fn check_finite<const D: usize>(points: &[[f64; D]]) -> Result<(), MeshError> {
     match points.iter().position(|point| point.iter().any(|x| !x.is_finite())) {
         Some(node) => Err(MeshError::NotFinite { node, coordinates: points[node].to_vec() }),
         None => Ok(()),
     }
 }
 
-fn check_nodes<const D: usize>(points: &[[f64; D]], cells: &Cells) -> Result<(), MeshError> {
+pub(crate) fn check_nodes<const D: usize>(points: &[[f64; D]], cells: &Cells) -> Result<(), MeshError> {
     check_finite(points)?;
     let mut used = vec![false; points.len()];
     for (index, nodes) in cells.iter().enumerate() {
@@ -161,7 +161,11 @@ fn check_nodes<const D: usize>(points: &[[f64; D]], cells: &Cells) -> Result<(),
     }
 }
 
-fn check_range(nodes: &[usize], count: usize, entity: impl Fn() -> String) -> Result<(), MeshError> {
+pub(crate) fn check_range(
+    nodes: &[usize],
+    count: usize,
+    entity: impl Fn() -> String,
+) -> Result<(), MeshError> {
     match nodes.iter().find(|&&node| node >= count) {
         Some(&node) => Err(MeshError::NodeOutOfRange { entity: entity(), node, nodes: count }),
         None => Ok(()),

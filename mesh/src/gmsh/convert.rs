@@ -38,7 +38,7 @@ impl GmshFile {
     pub fn into_mesh<const D: usize>(self) -> Result<Mesh<D>, ConvertError> {
         assert!(D == 2 || D == 3, "gmsh files make meshes in 2 or 3 dimensions, not {D}");
         self.check_kinds(D)?;
-        let cells = self.cells(D);
+        let cells = self.cells(ElementKind::simplex(D));
         let (numbers, used) = numbering(self.points.len(), &cells);
         if D == 2 {
             self.check_plane(&used)?;
@@ -48,7 +48,10 @@ impl GmshFile {
         let nodes = cells.iter().map(|&node| numbers[node]).collect();
         let cells = Cells::new(CellKind::simplex(D), nodes);
         check_orientation(&points, &cells)?;
-        let groups = self.boundary_groups(&numbers)?;
+        let groups = self.boundary_groups(ElementKind::simplex(D - 1), &numbers)?;
+        let facets = |nodes: Vec<usize>| nodes.as_chunks::<D>().0.to_vec();
+        let groups: Vec<NamedFacets<D>> =
+            groups.into_iter().map(|(name, nodes)| (name, facets(nodes))).collect();
         Ok(Mesh::new(points, cells, groups)?)
     }
 
@@ -73,9 +76,8 @@ impl GmshFile {
         Ok(())
     }
 
-    /// Nodes of all cells, block after block; what an earlier block holds is not taken again.
-    fn cells(&self, dimension: usize) -> Vec<usize> {
-        let kind = ElementKind::simplex(dimension);
+    /// Nodes of all elements of a kind, block after block; what an earlier block holds is not taken again.
+    pub(super) fn cells(&self, kind: ElementKind) -> Vec<usize> {
         let blocks: Vec<&ElementBlock> = self.blocks.iter().filter(|block| block.kind == kind).collect();
         if let [block] = blocks[..] {
             return block.nodes.clone();
@@ -89,7 +91,7 @@ impl GmshFile {
         nodes
     }
 
-    fn check_plane(&self, used: &[usize]) -> Result<(), ConvertError> {
+    pub(super) fn check_plane(&self, used: &[usize]) -> Result<(), ConvertError> {
         let points = || used.iter().map(|&node| self.points[node]);
         let extent = points().flat_map(|[x, y, _]| [x.abs(), y.abs()]).fold(0.0, f64::max);
         match points().position(|[_, _, z]| z.abs() > IN_PLANE * extent) {
@@ -101,14 +103,16 @@ impl GmshFile {
         }
     }
 
-    fn boundary_groups<const D: usize>(
+    /// Names of all groups of boundary elements of a kind, and the nodes of their elements.
+    pub(super) fn boundary_groups(
         &self,
+        kind: ElementKind,
         numbers: &[usize],
-    ) -> Result<Vec<NamedFacets<D>>, ConvertError> {
-        let kind = ElementKind::simplex(D - 1);
-        let named = self.names.iter().filter(|group| group.dimension == D - 1);
+    ) -> Result<Vec<(String, Vec<usize>)>, ConvertError> {
+        let dimension = kind.dimension();
+        let named = self.names.iter().filter(|group| group.dimension == dimension);
         // A name without elements gives an empty group, which the mesh refuses: a condition there would act nowhere.
-        let mut groups: BTreeMap<u32, NamedFacets<D>> =
+        let mut groups: BTreeMap<u32, (String, Vec<usize>)> =
             named.map(|group| (group.tag, (group.name.clone(), Vec::new()))).collect();
         for block in self.blocks.iter().filter(|block| block.kind == kind) {
             match block.groups[..] {
@@ -118,7 +122,7 @@ impl GmshFile {
                     self.append_facets(block, numbers, groups.entry(tag).or_insert_with(unnamed))?;
                 }
                 [first, second, ..] => {
-                    let name = |tag| self.group_name(D - 1, tag);
+                    let name = |tag| self.group_name(dimension, tag);
                     return Err(ConvertError::SharedFacets { first: name(first), second: name(second) });
                 }
             }
@@ -129,11 +133,11 @@ impl GmshFile {
         Ok(groups.into_values().collect())
     }
 
-    fn append_facets<const D: usize>(
+    fn append_facets(
         &self,
         block: &ElementBlock,
         numbers: &[usize],
-        (name, facets): &mut NamedFacets<D>,
+        (name, facets): &mut (String, Vec<usize>),
     ) -> Result<(), ConvertError> {
         for facet in block.elements() {
             if let Some(&node) = facet.iter().find(|&&node| numbers[node] == UNUSED) {
@@ -143,14 +147,14 @@ impl GmshFile {
                     place: self.points[node].into(),
                 });
             }
-            facets.push(std::array::from_fn(|i| numbers[facet[i]]));
+            facets.extend(facet.iter().map(|&node| numbers[node]));
         }
         Ok(())
     }
 }
 
 /// Numbers of the nodes that cells use, without gaps and in their old order, and the old number of each new one.
-fn numbering(count: usize, cells: &[usize]) -> (Vec<usize>, Vec<usize>) {
+pub(super) fn numbering(count: usize, cells: &[usize]) -> (Vec<usize>, Vec<usize>) {
     let mut numbers = vec![UNUSED; count];
     for &node in cells {
         numbers[node] = 0;

@@ -62,7 +62,7 @@ fn place_in(section: Option<&String>) -> String {
     section.map_or_else(String::new, |name| format!(" in ${}", excerpt(name.as_bytes())))
 }
 
-/// Why the content of a gmsh file does not make a mesh of straight simplices.
+/// Why the content of a gmsh file does not make a mesh of straight simplices, or of a solid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ConvertError {
     /// No cells of the dimension.
@@ -95,6 +95,40 @@ pub enum ConvertError {
         /// How many there are.
         count: usize,
         /// What can be used in their place.
+        wanted: ElementKind,
+    },
+    /// No triangles or quadrilaterals for a solid.
+    #[error("the file has no triangles or quadrilaterals, which a plane solid consists of\nhint: {}", no_cells_hint(*largest, 2))]
+    NoSolid {
+        /// Largest dimension of the file's elements, if it has any.
+        largest: Option<usize>,
+    },
+    /// Cells of several kinds in one solid.
+    #[error(
+        "the file mixes {first}s ({first_count}) and {second}s ({second_count}), a solid takes cells of one kind\nhint: drop `Recombine Surface`, or let it leave no triangles: Mesh.RecombinationAlgorithm = 3"
+    )]
+    MixedKinds {
+        /// A kind.
+        first: ElementKind,
+        /// How many there are.
+        first_count: usize,
+        /// Another one.
+        second: ElementKind,
+        /// How many there are.
+        second_count: usize,
+    },
+    /// Boundary elements that are not edges of the cells.
+    #[error(
+        "the {kind}s of the file ({count}) are no edges of its {cell}s, which have {wanted}s\nhint: give all elements the same order: Mesh.ElementOrder before meshing, or `SetOrder` after it"
+    )]
+    OtherEdges {
+        /// The boundary elements.
+        kind: ElementKind,
+        /// How many there are.
+        count: usize,
+        /// The cells.
+        cell: ElementKind,
+        /// What their edges are.
         wanted: ElementKind,
     },
     /// A plane mesh that is not in the plane.

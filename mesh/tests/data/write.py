@@ -90,4 +90,15 @@ for version, binary in ALL:
 two_triangles_with_gaps()
 for version, binary in ALL:
     write("gaps", version, binary)
+
+# All quadrilaterals: of four nodes, of nine, and of eight.
+option("Mesh.RecombineAll", 1)
+option("Mesh.RecombinationAlgorithm", 3)
+mesh("plate-with-hole", 2)
+write("plate-quadrilaterals", 4.1, False)
+mesh("plate-with-hole", 2, order=2)
+write("plate-quadrilaterals-9", 4.1, True)
+option("Mesh.SecondOrderIncomplete", 1)
+mesh("plate-with-hole", 2, order=2)
+write("plate-quadrilaterals-8", 2.2, False)
 gmsh.finalize()

@@ -19,8 +19,8 @@ fn deflected(size: [f64; 2], elements: [usize; 2]) -> StructureSolver<2> {
         density: 1000.0,
         material: Material::new(Law::StVenantKirchhoff, 5e6, 0.3, Plane::Strain).expect("a valid material"),
         body_force: BodyForce::Constant([0.0, -9.81e3]),
-        clamped: vec![Side::LEFT, Side::RIGHT],
-        wetted: vec![Side::TOP],
+        clamped: [Side::LEFT, Side::RIGHT].into(),
+        wetted: [Side::TOP].into(),
     };
     let time = TimeScheme::GeneralizedAlpha { spectral_radius: 0.5 };
     let settings = StructureSettings { time, ..StructureSettings::default() };

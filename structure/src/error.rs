@@ -68,6 +68,34 @@ pub enum StructureError {
         /// The side asked for.
         side: Side,
     },
+    /// A boundary group was named that the mesh does not have.
+    #[error("the mesh has no boundary group `{group}`\nhint: it has {known}")]
+    NoSuchGroup {
+        /// The group asked for.
+        group: String,
+        /// Names of all groups.
+        known: String,
+    },
+    /// A boundary group was asked of a patch.
+    #[error("a patch has no boundary group `{group}`\nhint: it has sides: left, right, bottom and top")]
+    GroupOfPatch {
+        /// The group asked for.
+        group: String,
+    },
+    /// A side was asked of a mesh.
+    #[error("a mesh has no side `{side}`\nhint: it has boundary groups: {known}")]
+    SideOfMesh {
+        /// The side asked for.
+        side: Side,
+        /// Names of all groups.
+        known: String,
+    },
+    /// A point cannot be tied to the wetted sides of the patch.
+    #[error(transparent)]
+    OffPatch(#[from] partita_iga::transfer::TransferError),
+    /// A point cannot be tied to the wetted groups of the mesh.
+    #[error(transparent)]
+    OffMesh(#[from] partita_mesh::solid::transfer::TransferError),
     /// The reference configuration is folded or degenerate at a quadrature point.
     #[error(
         "element {element} is inverted near {place:?} m: the determinant of its map is {determinant:e}\n\

@@ -1,4 +1,5 @@
-//! Nonlinear elastodynamics: Total Lagrangian solids on one NURBS patch, generalized-alpha in time.
+//! Nonlinear elastodynamics: Total Lagrangian solids on one NURBS patch or a Lagrange mesh, generalized-alpha or Newmark
+//! in time.
 //!
 //! ```text
 //! rho d_tt = Div P + b,   P = F S,   S = S(E),   E = (F^T F - I)/2
@@ -9,18 +10,21 @@
 //! | [`material`] | stress and tangent from the displacement gradient |
 //! | [`kernel`] | the element: internal force, tangent, mass, energies |
 //! | [`space`], [`elements`] | geometry and displacement space; shape functions tabulated once |
+//! | [`boundary`], [`interface`] | names of its parts; how points outside hang on it |
 //! | `assembly`, `factor` | global forces and tangent; its symmetric factor |
 //! | [`load`] | body force, interface forces |
 //! | [`step`], [`state`] | time integration; what goes from step to step |
 //! | [`model`] | properties, supports, settings |
 //! | [`solver`], `newton`, `probe` | [`StructureSolver`]: the steps, the nonlinear system, what to read off |
 //!
-//! Fields over control points are flat, `control_point * D + c`; those over the interface `point * D + c`, in the
-//! order of [`StructureSolver::interface_points`]. Units are SI; in the plane, forces and energies are per metre
+//! Nodes are the control points of a patch or the nodes of a mesh. Fields over them are flat, `node * D + c`; those over
+//! the interface `point * D + c`, in the order of [`StructureSolver::interface_points`]. Units are SI; in the plane, forces and energies are per metre
 //! of depth.
 
+pub mod boundary;
 pub mod elements;
 pub mod error;
+pub mod interface;
 pub mod kernel;
 pub mod load;
 pub mod material;
@@ -37,7 +41,9 @@ mod probe;
 mod tensor;
 mod worst;
 
+pub use boundary::Boundary;
 pub use error::StructureError;
+pub use interface::InterfaceRow;
 pub use load::{BodyForce, VectorField};
 pub use material::{Law, Material, MaterialError, Plane, Response, ResponseError};
 pub use model::{LineSearch, Part, Rayleigh, StructureModel, StructureSettings};

@@ -1,9 +1,9 @@
 //! What a structure is made of, and how it is solved.
 
-use partita_iga::Side;
 use partita_numerics::newton;
 use serde::{Deserialize, Serialize};
 
+use crate::boundary::Boundary;
 use crate::error::StructureError;
 use crate::load::BodyForce;
 use crate::material::{Material, Plane};
@@ -18,10 +18,10 @@ pub struct StructureModel<const D: usize> {
     pub material: Material,
     /// Force per reference volume b `[N/m^3]`.
     pub body_force: BodyForce<D>,
-    /// Sides whose control points do not move.
-    pub clamped: Vec<Side>,
-    /// Sides that form the interface.
-    pub wetted: Vec<Side>,
+    /// Parts of the boundary whose nodes do not move: sides of a patch, groups of a mesh.
+    pub clamped: Boundary,
+    /// Parts of the boundary that form the interface.
+    pub wetted: Boundary,
 }
 
 impl<const D: usize> StructureModel<D> {

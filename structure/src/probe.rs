@@ -1,28 +1,28 @@
 //! What to read off a structure: displacements at places, energies, reactions.
 
-use partita_iga::{BasisValues, Derivatives, Side};
-
+use crate::boundary::Boundary;
 use crate::error::StructureError;
 use crate::solver::StructureSolver;
-use crate::space::Space;
 
 impl<const D: usize> StructureSolver<D> {
-    /// Displacement `d(xi) = sum_a R_a(xi) d_a` `[m]` of the trial state at the parameters `xi` of the patch.
+    /// Displacement `d = sum_a N_a d_a` `[m]` of the trial state: at the parameters of a patch, or at a point `[m]` of the
+    /// undeformed mesh.
     ///
     /// # Panics
-    /// When `xi` lies outside the domain or has the wrong length.
+    /// When `at` lies outside the patch or mesh or has the wrong length; [`Space::evaluate`](crate::Space::evaluate)
+    /// tells the first for a mesh.
     #[must_use]
-    pub fn displacement_at(&self, xi: &[f64]) -> [f64; D] {
-        self.field_at(xi, &self.trial.displacement)
+    pub fn displacement_at(&self, at: &[f64]) -> [f64; D] {
+        self.field_at(at, &self.trial.displacement)
     }
 
-    /// Velocity v(xi) `[m/s]`, as [`displacement_at`](Self::displacement_at).
+    /// Velocity `[m/s]`, as [`displacement_at`](Self::displacement_at).
     ///
     /// # Panics
-    /// When `xi` lies outside the domain or has the wrong length.
+    /// As [`displacement_at`](Self::displacement_at).
     #[must_use]
-    pub fn velocity_at(&self, xi: &[f64]) -> [f64; D] {
-        self.field_at(xi, &self.trial.velocity)
+    pub fn velocity_at(&self, at: &[f64]) -> [f64; D] {
+        self.field_at(at, &self.trial.velocity)
     }
 
     /// Strain energy of the trial state `[J, in 2D J/m]`.
@@ -37,17 +37,18 @@ impl<const D: usize> StructureSolver<D> {
         self.assembly.kinetic_energy(&self.trial.velocity)
     }
 
-    /// Force `[N, in 2D N/m]` that the support of a clamped side exerts on the structure, at `n+1-alpha_f`.
+    /// Force `[N, in 2D N/m]` that the support of clamped parts of the boundary exerts on the structure, at
+    /// `n+1-alpha_f`.
     ///
-    /// It is the sum of the residual, as last assembled, over the control points of the side; on a side that is free
-    /// this is zero up to the Newton tolerance.
+    /// It is the sum of the residual, as last assembled, over the nodes of the parts; on parts that are free this is
+    /// zero up to the Newton tolerance.
     ///
     /// # Errors
-    /// When there is no such side.
-    pub fn reaction(&self, side: Side) -> Result<[f64; D], StructureError> {
+    /// When there is no such part.
+    pub fn reaction(&self, parts: impl Into<Boundary>) -> Result<[f64; D], StructureError> {
         let residual = self.work.residual.as_chunks::<D>().0;
         let mut sum = [0.0; D];
-        for node in self.space.side_nodes(side)? {
+        for node in self.space.nodes_of(&parts.into())? {
             for i in 0..D {
                 sum[i] += residual[node][i];
             }
@@ -55,13 +56,8 @@ impl<const D: usize> StructureSolver<D> {
         Ok(sum)
     }
 
-    fn field_at(&self, xi: &[f64], field: &[f64]) -> [f64; D] {
-        match &self.space {
-            Space::Patch(spline) => {
-                let mut basis = BasisValues::new(spline);
-                spline.basis(xi, Derivatives::None, &mut basis);
-                basis.value_of(field.as_chunks::<D>().0)
-            }
-        }
+    fn field_at(&self, at: &[f64], field: &[f64]) -> [f64; D] {
+        let value = self.space.evaluate(at, field.as_chunks::<D>().0);
+        value.unwrap_or_else(|| panic!("the point {at:?} lies outside the mesh"))
     }
 }

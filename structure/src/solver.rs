@@ -36,8 +36,8 @@ use crate::step::{Scheme, Step};
 ///     density: 1000.0,
 ///     material: Material::new(Law::StVenantKirchhoff, 1e7, 0.3, Plane::Strain)?,
 ///     body_force: BodyForce::Constant([0.0, -9.81e3]),
-///     clamped: vec![Side::LEFT],
-///     wetted: vec![],
+///     clamped: Side::LEFT.into(),
+///     wetted: Boundary::NONE,
 /// };
 /// let settings = StructureSettings { time: TimeScheme::QuasiStatic, ..Default::default() };
 /// let mut cantilever = StructureSolver::new(Space::Patch(patch), model, settings)?;
@@ -86,7 +86,7 @@ impl<const D: usize> StructureSolver<D> {
     /// Tabulates the space, analyses the pattern and starts at rest without loads at t = 0.
     ///
     /// # Errors
-    /// When a property or setting is out of range, the geometry is folded, or a side does not exist.
+    /// When a property or setting is out of range, the geometry is folded, or a side or group does not exist.
     pub fn new(
         space: Space<D>,
         model: StructureModel<D>,
@@ -130,7 +130,7 @@ impl<const D: usize> StructureSolver<D> {
         })
     }
 
-    /// Control points on the wetted sides that can move, ascending, those at corners once.
+    /// Nodes (control points of a patch) on the wetted parts that can move, ascending, those at corners once.
     #[must_use]
     pub fn interface_points(&self) -> &[usize] {
         self.loads.interface_points()
@@ -289,11 +289,21 @@ impl<const D: usize> StructureSolver<D> {
         Ok(())
     }
 
+    /// Geometry and displacement space in the reference configuration.
+    #[must_use]
+    pub fn space(&self) -> &Space<D> {
+        &self.space
+    }
+
     /// The patch in its reference configuration.
+    ///
+    /// # Panics
+    /// When the structure lives on a mesh: [`space`](Self::space) tells.
     #[must_use]
     pub fn spline(&self) -> &Spline<D> {
         match &self.space {
             Space::Patch(spline) => spline,
+            Space::Lagrange(_) => panic!("the structure lives on a mesh, not on a patch"),
         }
     }
 

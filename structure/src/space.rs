@@ -1,8 +1,11 @@
 //! Where displacements live: the geometry, its shape functions and their quadrature.
 
 use partita_iga::{BasisValues, Derivatives, Element, Side, Spline};
+use partita_mesh::SolidMesh;
+use partita_mesh::solid::{CellMap, reference};
 use partita_numerics::{gauss, small};
 
+use crate::boundary::Boundary;
 use crate::elements::Elements;
 use crate::error::StructureError;
 use crate::tensor;
@@ -12,51 +15,119 @@ use crate::tensor;
 pub enum Space<const D: usize> {
     /// One NURBS patch: the shape functions of the geometry carry the displacement (isogeometric analysis).
     Patch(Spline<D>),
+    /// A mesh of isoparametric Lagrange elements: plane triangles and quadrilaterals of degree 1 and 2.
+    Lagrange(SolidMesh<D>),
 }
 
 impl<const D: usize> Space<D> {
-    /// Number of nodes: control points of a patch.
+    /// Number of nodes: control points of a patch, nodes of a mesh.
     #[must_use]
     pub fn node_count(&self) -> usize {
         match self {
             Self::Patch(spline) => spline.control_points().len(),
+            Self::Lagrange(mesh) => mesh.points().len(),
         }
     }
 
-    /// Nodes of one side, ascending.
+    /// Nodes of some parts of the boundary, ascending, those on more than one part once.
     ///
     /// # Errors
-    /// When there is no such side.
-    pub fn side_nodes(&self, side: Side) -> Result<Vec<usize>, StructureError> {
-        match self {
-            Self::Patch(spline) if spline.has_side(side) => Ok(spline.side(side).1),
-            Self::Patch(_) => Err(StructureError::NoSuchSide { side }),
-        }
-    }
-
-    /// Nodes of several sides, ascending, those on more than one side once.
-    ///
-    /// # Errors
-    /// When there is no such side.
-    pub fn nodes_of(&self, sides: &[Side]) -> Result<Vec<usize>, StructureError> {
+    /// When the space has no such part: a patch has sides, a mesh its groups.
+    pub fn nodes_of(&self, parts: &Boundary) -> Result<Vec<usize>, StructureError> {
         let mut nodes = Vec::new();
-        for &side in sides {
-            nodes.extend(self.side_nodes(side)?);
+        match (self, parts) {
+            (Self::Patch(spline), Boundary::Sides(sides)) => {
+                for &side in sides {
+                    nodes.extend(side_nodes(spline, side)?);
+                }
+            }
+            (Self::Lagrange(mesh), Boundary::Groups(groups)) => {
+                for group in groups {
+                    nodes.extend(group_nodes(mesh, group)?);
+                }
+            }
+            (Self::Patch(_), Boundary::Groups(groups)) => {
+                if let Some(group) = groups.first() {
+                    return Err(StructureError::GroupOfPatch { group: group.clone() });
+                }
+            }
+            (Self::Lagrange(mesh), Boundary::Sides(sides)) => {
+                if let Some(&side) = sides.first() {
+                    return Err(StructureError::SideOfMesh { side, known: mesh.group_names() });
+                }
+            }
         }
         nodes.sort_unstable();
         nodes.dedup();
         Ok(nodes)
     }
 
-    /// Tabulates shape functions and reference gradients at degree + 1 Gauss points a direction and element.
+    /// A nodal field, one vector a node, at a place: the parameters of a patch, or the coordinates `[m]` of a point in the
+    /// undeformed mesh. `None` outside of the mesh.
+    ///
+    /// # Panics
+    /// When `at` has the wrong length, or lies outside the domain of a patch.
+    #[must_use]
+    pub fn evaluate(&self, at: &[f64], field: &[[f64; D]]) -> Option<[f64; D]> {
+        match self {
+            Self::Patch(spline) => {
+                let mut basis = BasisValues::new(spline);
+                spline.basis(at, Derivatives::None, &mut basis);
+                Some(basis.value_of(field))
+            }
+            Self::Lagrange(mesh) => {
+                let place = at.try_into().expect("a place has one coordinate a dimension");
+                mesh.locate(place).map(|location| mesh.evaluate(location, field))
+            }
+        }
+    }
+
+    /// Tabulates shape functions and reference gradients at the quadrature points: degree + 1 Gauss points a direction
+    /// and element of a patch, the rules of [`reference::quadrature`] in a mesh.
     ///
     /// # Errors
     /// When the patch is no solid, or its map is not invertible at a quadrature point.
     pub fn elements(&self) -> Result<Elements<D>, StructureError> {
         match self {
             Self::Patch(spline) => tabulate_patch(spline),
+            Self::Lagrange(mesh) => tabulate_mesh(mesh),
         }
     }
+}
+
+fn side_nodes<const D: usize>(spline: &Spline<D>, side: Side) -> Result<Vec<usize>, StructureError> {
+    if spline.has_side(side) { Ok(spline.side(side).1) } else { Err(StructureError::NoSuchSide { side }) }
+}
+
+fn group_nodes<const D: usize>(mesh: &SolidMesh<D>, group: &str) -> Result<Vec<usize>, StructureError> {
+    mesh.group_nodes(group)
+        .ok_or_else(|| StructureError::NoSuchGroup { group: group.to_owned(), known: mesh.group_names() })
+}
+
+/// As for a patch, `grad N_a = (dx/dxi)^-T dN_a/dxi`.
+fn tabulate_mesh<const D: usize>(mesh: &SolidMesh<D>) -> Result<Elements<D>, StructureError> {
+    let cells = mesh.cells();
+    let rule = reference::quadrature(cells.kind);
+    let nodes = cells.kind.node_count();
+    let mut elements = Elements::with_capacity(cells.len(), nodes, rule.len());
+    for (cell, cell_nodes) in cells.iter().enumerate() {
+        elements.push_element(cell_nodes);
+        for &(xi, weight) in &rule {
+            let CellMap { shape, place, jacobian } = mesh.map(cell, xi);
+            let determinant = small::determinant(&jacobian);
+            let inverted = || StructureError::Inverted { element: cell, place: place.to_vec(), determinant };
+            let (inverse, _) =
+                small::inverse(&jacobian).filter(|_| determinant > 0.0).ok_or_else(inverted)?;
+            let gradients = shape.derivatives[..nodes].iter().map(|derivative| {
+                // Meshes are plane so far; `D` is 2 wherever this runs.
+                let derivative: [f64; D] =
+                    std::array::from_fn(|j| derivative.get(j).copied().unwrap_or_default());
+                small::transpose_apply(&inverse, &derivative)
+            });
+            elements.push_point(place, weight * determinant, &shape.values[..nodes], gradients);
+        }
+    }
+    Ok(elements)
 }
 
 fn tabulate_patch<const D: usize>(spline: &Spline<D>) -> Result<Elements<D>, StructureError> {

@@ -1,5 +1,6 @@
 //! Orders of convergence in space and time.
 
+mod lagrange;
 mod space;
 mod time;
 

@@ -10,7 +10,7 @@ use partita_structure::{BodyForce, Law, Material, Plane, StructureModel, Structu
 use crate::common::{bare, quasi_static, solver};
 
 /// Vanishes on the border of the unit square; strains up to some 15 %.
-fn exact([x, y]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn exact([x, y]: [f64; 2]) -> [f64; 2] {
     let (sx, sy) = ((PI * x).sin(), (PI * y).sin());
     [0.04 * sx * sy, 0.02 * (2.0 * PI * x).sin() * sy]
 }
@@ -22,7 +22,7 @@ fn exact_gradient([x, y]: [f64; 2]) -> [[f64; 2]; 2] {
 }
 
 /// b = -Div P, by central differences of fourth order.
-fn body_force(material: &Material, [x, y]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn body_force(material: &Material, [x, y]: [f64; 2]) -> [f64; 2] {
     let stress = |dx: f64, dy: f64| material.stress(&exact_gradient([x + dx, y + dy])).unwrap();
     let h = 1e-3;
     std::array::from_fn(|i| {
@@ -75,7 +75,7 @@ fn order(degree: usize, levels: &[usize; 4], law: Law, plane: Plane) -> [f64; 2]
     let errors = levels.map(|elements| {
         let model = StructureModel {
             body_force: BodyForce::in_space(move |x, _| body_force(&material, *x)),
-            clamped: vec![Side::LEFT, Side::RIGHT, Side::BOTTOM, Side::TOP],
+            clamped: [Side::LEFT, Side::RIGHT, Side::BOTTOM, Side::TOP].into(),
             ..bare(material)
         };
         let mut solver = solver(square(degree, elements), model, quasi_static());

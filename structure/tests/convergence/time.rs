@@ -53,7 +53,7 @@ impl Oscillator {
 
 /// Largest errors over time in displacement and velocity, over their amplitudes, of a vibration in the two lowest modes.
 fn vibration_errors(scheme: TimeScheme, steps: usize, sizes: Sizes, rayleigh: Rayleigh) -> [f64; 2] {
-    let model = StructureModel { clamped: vec![Side::LEFT], ..bare(linear(100.0, 0.3)) };
+    let model = StructureModel { clamped: [Side::LEFT].into(), ..bare(linear(100.0, 0.3)) };
     let patch = beam(1.0, 0.2, 2, 4);
     let (frequencies, shapes) = modes(&patch, &model);
     let settings = StructureSettings { rayleigh: Some(rayleigh), ..stepped_by(scheme) };
@@ -145,7 +145,7 @@ fn newmark_with_gamma_above_one_half_is_of_first_order() {
 /// A flexible cantilever under a load that rises from zero with zero slope, swinging far.
 fn swing(scheme: TimeScheme, steps: usize) -> [f64; 2] {
     let model = StructureModel {
-        clamped: vec![Side::LEFT],
+        clamped: [Side::LEFT].into(),
         body_force: BodyForce::in_time(|t| [0.0, -9.0 * (1.0 - (1.5 * t).cos())]),
         ..bare(svk(3e3, 0.3))
     };

@@ -36,7 +36,7 @@ fn deflection(
     (xi, q): (f64, f64),
 ) -> f64 {
     let model = StructureModel {
-        clamped: clamped.to_vec(),
+        clamped: clamped.to_vec().into(),
         body_force: BodyForce::Constant([0.0, -q / height]),
         ..bare(material)
     };

@@ -1,9 +1,12 @@
 //! Patches, models and matrices that several tests need.
 
 use partita_iga::{Knots, Side, Spline, build};
+use partita_mesh::generate::{SolidRectangle, solid_rectangle};
+use partita_mesh::{CellKind, SolidMesh};
 use partita_numerics::newton::{self, Limit, Problem, Verdict};
 use partita_structure::{
-    BodyForce, Law, Material, Plane, Space, StructureModel, StructureSettings, StructureSolver, TimeScheme,
+    BodyForce, Boundary, Law, Material, Plane, Space, StructureModel, StructureSettings, StructureSolver,
+    TimeScheme,
 };
 
 pub(crate) const RADII: [f64; 3] = [0.0, 0.5, 1.0];
@@ -22,7 +25,13 @@ pub(crate) fn neo_hookean(young_modulus: f64, poisson_ratio: f64) -> Material {
 
 /// A model of density 1 without loads, supports and interface.
 pub(crate) fn bare<const D: usize>(material: Material) -> StructureModel<D> {
-    StructureModel { density: 1.0, material, body_force: BodyForce::NONE, clamped: vec![], wetted: vec![] }
+    StructureModel {
+        density: 1.0,
+        material,
+        body_force: BodyForce::NONE,
+        clamped: Boundary::NONE,
+        wetted: Boundary::NONE,
+    }
 }
 
 pub(crate) fn quasi_static() -> StructureSettings {
@@ -47,6 +56,37 @@ pub(crate) fn solver<const D: usize>(
     settings: StructureSettings,
 ) -> StructureSolver<D> {
     StructureSolver::new(Space::Patch(patch), model, settings).unwrap()
+}
+
+pub(crate) fn on_mesh(
+    mesh: SolidMesh<2>,
+    model: StructureModel<2>,
+    settings: StructureSettings,
+) -> StructureSolver<2> {
+    StructureSolver::new(Space::Lagrange(mesh), model, settings).unwrap()
+}
+
+/// The cells that a plane solid can have.
+pub(crate) const KINDS: [CellKind; 5] = [
+    CellKind::Triangle3,
+    CellKind::Triangle6,
+    CellKind::Quadrilateral4,
+    CellKind::Quadrilateral8,
+    CellKind::Quadrilateral9,
+];
+
+/// The unit square in n x n squares of any kind of cells, every node moved by `shape`.
+pub(crate) fn shaped_square(kind: CellKind, n: usize, shape: impl Fn(&[f64; 2]) -> [f64; 2]) -> SolidMesh<2> {
+    let square = SolidRectangle { origin: [0.0; 2], size: [1.0; 2], divisions: [n, n] };
+    let mesh = solid_rectangle(&square, kind).unwrap();
+    mesh.with_points(mesh.points().iter().map(shape).collect()).unwrap()
+}
+
+/// The unit square with curved sides but the left one, which is straight; the edges inside are curved, too.
+pub(crate) fn bent_square(kind: CellKind, n: usize) -> SolidMesh<2> {
+    shaped_square(kind, n, |&[x, y]| {
+        [x + 0.1 * (3.0 * y).sin() * x * (1.5 - x), y + 0.15 * x * x + 0.05 * (4.0 * x).sin() * y]
+    })
 }
 
 /// Solves a quasi-static structure under its body force as far as the arithmetic goes.

@@ -13,7 +13,7 @@ use crate::common::{bare, neo_hookean, quasi_static, solver, svk};
 fn block(material: Material, weight: f64, line_search: Option<LineSearch>) -> StructureSolver<2> {
     let patch = build::rectangle([0.0, 0.0], [1.0, 1.0], [1, 1], [2, 2]).unwrap();
     let model = StructureModel {
-        clamped: vec![Side::BOTTOM],
+        clamped: [Side::BOTTOM].into(),
         body_force: BodyForce::Constant([0.0, -weight]),
         ..bare(material)
     };

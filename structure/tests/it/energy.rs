@@ -18,7 +18,7 @@ fn energy(solver: &StructureSolver<2>) -> f64 {
 
 /// A cantilever in its first mode of linear vibration, with a step that takes the angle `omega_dt` of that mode.
 fn in_first_mode(scheme: TimeScheme, omega_dt: f64) -> (StructureSolver<2>, f64) {
-    let model = StructureModel { clamped: vec![Side::LEFT], ..bare(linear(100.0, 0.3)) };
+    let model = StructureModel { clamped: [Side::LEFT].into(), ..bare(linear(100.0, 0.3)) };
     let patch = beam(1.0, 0.2, 2, 2);
     let (frequencies, shapes) = modes(&patch, &model);
     // A bound relative to the forces cannot be met where all of them pass through zero.
@@ -100,7 +100,7 @@ struct Swing {
 }
 
 fn swing(scheme: TimeScheme, material: Material, dt: f64) -> Swing {
-    let model = StructureModel { clamped: vec![Side::LEFT], ..bare(material) };
+    let model = StructureModel { clamped: [Side::LEFT].into(), ..bare(material) };
     let mut settings = stepped_by(scheme);
     settings.newton.bound = Bound::Absolute(1e-9);
     let patch = beam(1.0, 0.1, 2, 3);

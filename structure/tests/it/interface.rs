@@ -10,8 +10,8 @@ use crate::common::{RADII, bare, dynamic, noise, quasi_static, solver, svk};
 fn with_sides(clamped: &[Side], wetted: &[Side]) -> StructureSolver<2> {
     let patch = build::rectangle([0.0, 0.0], [1.0, 0.5], [2, 2], [2, 1]).unwrap();
     let mut model = bare(svk(10.0, 0.3));
-    model.clamped = clamped.to_vec();
-    model.wetted = wetted.to_vec();
+    model.clamped = clamped.to_vec().into();
+    model.wetted = wetted.to_vec().into();
     solver(patch, model, quasi_static())
 }
 
@@ -37,8 +37,8 @@ fn points_are_ascending_corners_come_once_and_clamped_ones_not_at_all() {
 fn the_interface_of_a_volume_lies_on_its_faces() {
     let patch = build::cuboid([0.0; 3], [1.0, 1.0, 1.0], [1, 1, 1], [1, 1, 1]).unwrap();
     let mut model = bare(svk(10.0, 0.3));
-    model.clamped = vec![Side::FRONT];
-    model.wetted = vec![Side::LEFT, Side::TOP];
+    model.clamped = [Side::FRONT].into();
+    model.wetted = [Side::LEFT, Side::TOP].into();
     assert_eq!(solver(patch, model, quasi_static()).interface_points(), [4, 6, 7]);
 }
 
@@ -98,8 +98,8 @@ fn an_interface_load_is_averaged_over_the_step_like_every_other() {
         let alpha_f = radius / (radius + 1.0);
         let patch = build::rectangle([0.0, 0.0], [1.0, 0.5], [2, 2], [2, 1]).unwrap();
         let mut model = bare(svk(10.0, 0.3));
-        model.clamped = vec![Side::LEFT];
-        model.wetted = vec![Side::RIGHT];
+        model.clamped = [Side::LEFT].into();
+        model.wetted = [Side::RIGHT].into();
         let mut solver = solver(patch, model, dynamic(radius));
         let right = solver.interface_points().to_vec();
 

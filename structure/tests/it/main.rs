@@ -8,6 +8,7 @@ mod crushed;
 mod energy;
 mod interface;
 mod invariance;
+mod lagrange;
 mod newton_loop;
 mod patch_test;
 mod refusals;

@@ -13,8 +13,8 @@ fn cantilever(reach: f64, settings: StructureSettings) -> StructureSolver<2> {
     let (height, young_modulus, nu): (f64, f64, f64) = (0.05, 1e6, 0.3);
     let stiffness = young_modulus / (1.0 - nu * nu) * height.powi(3) / 12.0;
     let mut model = bare(svk(young_modulus, nu));
-    model.clamped = vec![Side::LEFT];
-    model.wetted = vec![Side::TOP];
+    model.clamped = [Side::LEFT].into();
+    model.wetted = [Side::TOP].into();
     model.body_force = BodyForce::Constant([0.0, -8.0 * stiffness * reach / height]);
     solver(beam(1.0, height, 3, 20), model, settings)
 }
@@ -53,7 +53,7 @@ fn newton_converges_quadratically_under_a_large_deflection() {
 #[test]
 fn a_slender_body_stands_still_where_the_last_bit_of_its_displacement_moves_the_residual() {
     let mut model = bare(svk(1e7, 0.3));
-    model.clamped = vec![Side::LEFT, Side::RIGHT];
+    model.clamped = [Side::LEFT, Side::RIGHT].into();
     model.body_force = BodyForce::Constant([0.0, -3.5]);
     let mut solver = solver(beam(1.0, 0.01, 2, 60), model, quasi_static());
     solver.begin_step(1.0, 1.0);
@@ -77,7 +77,7 @@ fn a_slender_body_stands_still_where_the_last_bit_of_its_displacement_moves_the_
 fn a_linear_structure_takes_one_iteration() {
     for settings in [quasi_static(), dynamic(0.5)] {
         let mut model = bare(linear(1e6, 0.3));
-        model.clamped = vec![Side::LEFT];
+        model.clamped = [Side::LEFT].into();
         model.body_force = BodyForce::Constant([10.0, -10.0]);
         let mut solver = solver(beam(1.0, 0.1, 2, 10), model, settings);
         assert_eq!(solver.advance(0.1, 0.1).unwrap().iterations, 1);
@@ -127,8 +127,8 @@ fn a_call_continues_from_the_latest_iterate_under_new_loads() {
 fn nothing_moves_from_an_exactly_zero_state_without_loads() {
     for settings in [quasi_static(), dynamic(0.0), dynamic(1.0)] {
         let mut model = bare(svk(1e6, 0.3));
-        model.clamped = vec![Side::LEFT];
-        model.wetted = vec![Side::TOP];
+        model.clamped = [Side::LEFT].into();
+        model.wetted = [Side::TOP].into();
         let mut solver = solver(beam(1.0, 0.1, 2, 4), model, settings);
         solver.begin_step(0.1, 0.1);
         solver.impose(&vec![0.0; solver.interface_points().len() * 2]);
@@ -156,7 +156,7 @@ fn the_residual_is_measured_against_the_largest_of_its_terms() {
 /// it to a hundred times its length, where St. Venant-Kirchhoff material, of third order in the stretch, ends at ten.
 fn strong_pull(line_search: Option<LineSearch>) -> (usize, StructureSolver<2>) {
     let model = StructureModel {
-        clamped: vec![Side::LEFT],
+        clamped: [Side::LEFT].into(),
         body_force: BodyForce::Constant([1e5, 0.0]),
         ..bare(svk(1e3, 0.0))
     };
@@ -199,7 +199,7 @@ fn column(times_buckling: f64) -> StructureSolver<2> {
     // Greenhill: a column of weight q per length buckles at q L^3 = 7.837 EI.
     let weight = 7.837 * stiffness * times_buckling;
     let model = StructureModel {
-        clamped: vec![Side::LEFT],
+        clamped: [Side::LEFT].into(),
         body_force: BodyForce::Constant([-weight / height, 0.0]),
         ..bare(svk(young_modulus, nu))
     };

@@ -73,8 +73,8 @@ fn a_clamped_patch_under_the_tractions_of_a_uniform_stress_takes_its_uniform_str
     for material in [linear(7.0, 0.3), svk(7.0, 0.3), neo_hookean(7.0, 0.3)] {
         let patch = distorted_square(Weights::Equal);
         let mut model = bare(material);
-        model.clamped = vec![Side::LEFT];
-        model.wetted = vec![Side::RIGHT, Side::BOTTOM, Side::TOP];
+        model.clamped = [Side::LEFT].into();
+        model.wetted = [Side::RIGHT, Side::BOTTOM, Side::TOP].into();
         let mut solver = solver(patch.clone(), model, quasi_static());
         let stress = material.stress(&gradient).unwrap();
         let traction = traction_of_uniform_stress(&patch, &[Side::RIGHT, Side::BOTTOM, Side::TOP], stress);

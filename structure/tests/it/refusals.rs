@@ -43,8 +43,8 @@ fn numbers_out_of_range_are_refused() {
 #[test]
 fn sides_that_do_not_exist_are_refused() {
     for model in [
-        StructureModel { clamped: vec![Side::FRONT], ..bare(svk(1.0, 0.3)) },
-        StructureModel { wetted: vec![Side::FRONT], ..bare(svk(1.0, 0.3)) },
+        StructureModel { clamped: [Side::FRONT].into(), ..bare(svk(1.0, 0.3)) },
+        StructureModel { wetted: [Side::FRONT].into(), ..bare(svk(1.0, 0.3)) },
     ] {
         let error = refusal(beam(1.0, 0.1, 2, 2), model, quasi_static());
         assert_eq!(error, StructureError::NoSuchSide { side: Side::FRONT });
@@ -79,6 +79,6 @@ fn plane_stress_in_space_is_refused() {
 #[test]
 fn a_structure_with_nothing_free_is_refused() {
     let patch = build::rectangle([0.0, 0.0], [1.0, 1.0], [1, 1], [1, 1]).unwrap();
-    let model = StructureModel { clamped: vec![Side::LEFT, Side::RIGHT], ..bare(svk(1.0, 0.3)) };
+    let model = StructureModel { clamped: [Side::LEFT, Side::RIGHT].into(), ..bare(svk(1.0, 0.3)) };
     assert_eq!(refusal(patch, model, quasi_static()), StructureError::NothingFree);
 }

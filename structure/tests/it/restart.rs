@@ -9,8 +9,8 @@ use crate::common::{bare, beam, dynamic, quasi_static, solver, svk};
 
 fn shaken(settings: StructureSettings) -> StructureSolver<2> {
     let mut model = bare(svk(1e5, 0.3));
-    model.clamped = vec![Side::LEFT];
-    model.wetted = vec![Side::TOP];
+    model.clamped = [Side::LEFT].into();
+    model.wetted = [Side::TOP].into();
     model.body_force = BodyForce::in_time(|t| [3.0 * (20.0 * t).cos(), -40.0 * (7.0 * t).sin()]);
     let rayleigh = Some(Rayleigh { mass: 0.1, stiffness: 1e-4 });
     solver(beam(1.0, 0.1, 2, 8), model, StructureSettings { rayleigh, ..settings })

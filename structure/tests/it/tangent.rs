@@ -24,7 +24,7 @@ fn in_motion<const D: usize>(
 ) -> StructureSolver<D> {
     let mut model = bare(material);
     model.density = 2.5;
-    model.clamped = vec![Side::LEFT];
+    model.clamped = [Side::LEFT].into();
     let mut solver = solver(patch, model, settings);
     let mut state = solver.state().clone();
     let dofs = state.displacement.len();

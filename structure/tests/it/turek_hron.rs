@@ -1,10 +1,11 @@
 //! The elastic flag of Turek and Hron (2006) under its own weight: CSM1 and CSM3, values of the Featflow pages.
 
 use partita_iga::{Knots, Side, Spline, build};
+use partita_mesh::gmsh::GmshFile;
 use partita_numerics::newton::Bound;
-use partita_structure::{BodyForce, StructureModel, StructureSettings, StructureSolver};
+use partita_structure::{BodyForce, Boundary, StructureModel, StructureSettings, StructureSolver};
 
-use crate::common::{bare, dynamic, quasi_static, settle, solver, svk};
+use crate::common::{bare, dynamic, on_mesh, quasi_static, settle, solver, svk};
 
 /// 0.35 m x 0.02 m behind a cylinder of radius 0.05 m at (0.2, 0.2): its left side is the arc of the cylinder, exactly.
 ///
@@ -24,13 +25,16 @@ fn flag(degree: usize, along: &[f64], rows: usize) -> Spline<2> {
 }
 
 fn under_gravity(patch: Spline<2>, settings: StructureSettings) -> StructureSolver<2> {
-    let model = StructureModel {
+    solver(patch, heavy(Side::LEFT.into()), settings)
+}
+
+fn heavy(clamped: Boundary) -> StructureModel<2> {
+    StructureModel {
         density: 1000.0,
-        clamped: vec![Side::LEFT],
+        clamped,
         body_force: BodyForce::Constant([0.0, -2.0 * 1000.0]),
         ..bare(svk(1.4e6, 0.4))
-    };
-    solver(patch, model, settings)
+    }
 }
 
 /// Displacement of the end of the flag [mm].
@@ -48,6 +52,22 @@ fn csm1_static_deflection() {
     println!("CSM1: ({x:.4}, {y:.3}) mm, reference (-7.187, -66.10)");
     assert!((x / -7.187 - 1.0).abs() < 1e-3, "{x}");
     assert!((y / -66.10 - 1.0).abs() < 1e-3, "{y}");
+}
+
+#[test]
+fn csm1_static_deflection_on_meshes_of_gmsh() {
+    let triangles: &[u8] = include_bytes!("../data/flag-triangles.msh");
+    let quadrilaterals: &[u8] = include_bytes!("../data/flag-quadrilaterals.msh");
+    for file in [triangles, quadrilaterals] {
+        let mesh = GmshFile::parse(file).unwrap().into_solid_mesh().unwrap();
+        let kind = mesh.cells().kind;
+        let mut solver = on_mesh(mesh, heavy("cylinder".into()), quasi_static());
+        settle(&mut solver);
+        let [x, y] = solver.displacement_at(&[0.6, 0.2]).map(|d| 1e3 * d);
+        println!("CSM1, {kind:?}, {} unknowns: ({x:.4}, {y:.3}) mm", solver.parts()[0].dofs.len());
+        assert!((x / -7.187 - 1.0).abs() < 2e-3, "{kind:?}: {x}");
+        assert!((y / -66.10 - 1.0).abs() < 2e-3, "{kind:?}: {y}");
+    }
 }
 
 #[test]

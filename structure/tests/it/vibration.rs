@@ -11,7 +11,7 @@ fn the_lowest_frequencies_of_a_clamped_beam_are_those_of_beam_theory() {
     let material =
         partita_structure::Material::new(partita_structure::Law::StVenantKirchhoff, e, nu, Plane::Strain)
             .unwrap();
-    let model = StructureModel { density: rho, clamped: vec![Side::LEFT, Side::RIGHT], ..bare(material) };
+    let model = StructureModel { density: rho, clamped: [Side::LEFT, Side::RIGHT].into(), ..bare(material) };
     let frequencies = modes(&beam(1.0, height, 2, 60), &model).0;
     // omega = beta^2 sqrt(D/(rho h)), cos(beta) cosh(beta) = 1 for the length 1.
     let scale = (e / (1.0 - nu * nu) * height.powi(3) / 12.0 / (rho * height)).sqrt();
@@ -24,7 +24,7 @@ fn the_lowest_frequencies_of_a_clamped_beam_are_those_of_beam_theory() {
 
 /// A short cantilever of linear material, released from a bent state.
 fn released(scheme: TimeScheme) -> (StructureSolver<2>, f64) {
-    let model = StructureModel { clamped: vec![Side::LEFT], ..bare(linear(100.0, 0.3)) };
+    let model = StructureModel { clamped: [Side::LEFT].into(), ..bare(linear(100.0, 0.3)) };
     let patch = beam(1.0, 0.2, 2, 4);
     let (frequencies, shapes) = modes(&patch, &model);
     let mut solver = solver(patch, model, stepped_by(scheme));

@@ -138,7 +138,7 @@ pub enum StructureError {
         determinant: f64,
     },
     /// Nothing is left to move.
-    #[error("every control point is clamped\nhint: leave at least one side free, or refine the patch")]
+    #[error("every node is clamped\nhint: leave a part of the boundary free, or refine the patch or mesh")]
     NothingFree,
     /// The tangent could not be factored.
     #[error(transparent)]
@@ -146,7 +146,7 @@ pub enum StructureError {
     /// A saved state belongs to another structure.
     #[error(
         "the saved state has {found} values of {quantity}, the structure has {expected}\n\
-         hint: continue a run with the patch and the sides it was started with"
+         hint: continue a run with the patch or mesh and the parts of its boundary it was started with"
     )]
     StateOfAnotherStructure {
         /// The field of the state.

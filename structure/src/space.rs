@@ -20,13 +20,19 @@ pub enum Space<const D: usize> {
 }
 
 impl<const D: usize> Space<D> {
-    /// Number of nodes: control points of a patch, nodes of a mesh.
+    /// Undeformed places of the nodes `[m]`: control points of a patch, nodes of a mesh.
+    #[must_use]
+    pub fn points(&self) -> &[[f64; D]] {
+        match self {
+            Self::Patch(spline) => spline.control_points(),
+            Self::Lagrange(mesh) => mesh.points(),
+        }
+    }
+
+    /// Number of nodes.
     #[must_use]
     pub fn node_count(&self) -> usize {
-        match self {
-            Self::Patch(spline) => spline.control_points().len(),
-            Self::Lagrange(mesh) => mesh.points().len(),
-        }
+        self.points().len()
     }
 
     /// Nodes of some parts of the boundary, ascending, those on more than one part once.

@@ -7,7 +7,6 @@ use partita_numerics::norms::largest_at;
 use crate::error::{StructureError, shown};
 use crate::material::Law;
 use crate::solver::StructureSolver;
-use crate::space::Space;
 
 /// The equation of a control point that misses its balance most.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,9 +39,8 @@ impl<const D: usize> StructureSolver<D> {
     pub fn worst_equation(&self) -> Option<WorstEquation> {
         let residual = self.residual();
         let dof = largest_at(residual, self.assembly.dofs().free())?;
-        let Space::Patch(spline) = &self.space;
         let (point, component) = (dof / D, dof % D);
-        let place = spline.control_points()[point].to_vec();
+        let place = self.space.points()[point].to_vec();
         Some(WorstEquation { point, place, component, residual: residual[dof] })
     }
 

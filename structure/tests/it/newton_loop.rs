@@ -265,7 +265,7 @@ fn a_step_allocates_nothing() {
 fn a_body_turned_inside_out_is_an_equilibrium_of_the_law_and_no_solution() {
     let mirrored = |material| {
         let mut model = bare(material);
-        model.clamped = vec![Side::LEFT];
+        model.clamped = Side::LEFT.into();
         let patch = beam(1.0, 0.2, 2, 4);
         let guess: Vec<f64> = patch.control_points().iter().flat_map(|x| [-2.0 * x[0], 0.0]).collect();
         let mut solver = solver(patch, model, quasi_static());

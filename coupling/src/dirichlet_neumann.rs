@@ -55,6 +55,12 @@ impl Interface {
         }
     }
 
+    /// `F . (x_tilde - from)` \[J, in 2D J/m\]: the work of the load on the way from there.
+    pub(crate) fn work_since(&self, from: &[f64]) -> f64 {
+        let way = self.x_tilde.iter().zip(from).map(|(to, from)| to - from);
+        way.zip(&self.transferred_load).map(|(way, load)| way * load).sum()
+    }
+
     /// `|f . (H x) - (H^T f) . x| / (|f| |H x|)`, 0/0 = 0.
     fn work_defect(&self) -> f64 {
         let defect = dot(&self.load, &self.displacement) - dot(&self.transferred_load, &self.x);

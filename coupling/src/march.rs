@@ -136,6 +136,8 @@ pub struct March<A, B> {
     past: Past,
     interface: Interface,
     history: StepHistory,
+    /// Work at the interface over the last accepted step.
+    work: f64,
 }
 
 impl<A: Participant, B: Participant> March<A, B> {
@@ -172,7 +174,17 @@ impl<A: Participant, B: Participant> March<A, B> {
         let interface = Interface::new(&first, &second);
         let past = Past::new(time, interface.x.clone());
         let history = StepHistory::new(Step { index: 0, time, dt: 0.0 });
-        Ok(Self { first, second, transfers, choices, clock: Clock::new(time), past, interface, history })
+        Ok(Self {
+            first,
+            second,
+            transfers,
+            choices,
+            clock: Clock::new(time),
+            past,
+            interface,
+            history,
+            work: 0.0,
+        })
     }
 
     /// Replaces the interface displacement \[m\] the run starts from.
@@ -247,6 +259,7 @@ impl<A: Participant, B: Participant> March<A, B> {
         self.first.commit();
         self.second.commit();
         self.choices.accelerator.step_converged(&self.interface.x, &self.interface.r);
+        self.work = self.interface.work_since(&self.past.newest().displacement);
         self.past.push(clock.time, &self.interface.x_tilde);
         self.clock = clock;
     }
@@ -281,6 +294,7 @@ impl<A: Participant, B: Participant> March<A, B> {
         self.choices.policy.restore(&state.policy)?;
         self.past.clone_from(&state.past);
         self.clock = state.clock;
+        self.work = 0.0;
         Ok(())
     }
 
@@ -311,6 +325,20 @@ impl<A: Participant, B: Participant> March<A, B> {
     #[must_use]
     pub fn interface(&self) -> &Interface {
         &self.interface
+    }
+
+    /// Work of the first participant's load on the second one over the last accepted step \[J, in 2D J/m\]:
+    ///
+    /// ```text
+    /// F_{n+1} . (x_tilde_{n+1} - x_tilde_n)
+    /// ```
+    ///
+    /// It is what a first participant gives that moves its boundary by backward Euler. A second one that balances
+    /// the load at `n+1-alpha_f` gets `alpha_f (F_{n+1} - F_n) . (x_tilde_{n+1} - x_tilde_n)` less. Zero before the
+    /// first step, and after [`restore`](Self::restore) until the next one.
+    #[must_use]
+    pub fn interface_work(&self) -> f64 {
+        self.work
     }
 
     /// The iterations of the last step, finished or failed.

@@ -8,3 +8,4 @@ mod quasi_newton;
 mod resume;
 mod support;
 mod transfer;
+mod work;

@@ -3,7 +3,11 @@
 mod beam;
 mod checkpoint;
 mod failures;
+mod linear_tank;
 mod output;
 mod program;
+mod relaxation;
 mod scene;
+mod static_tank;
 mod tank;
+mod work;

@@ -1,0 +1,3 @@
+//! Orders of convergence of the coupled problem.
+
+mod time;

@@ -4,12 +4,17 @@
 //! is read back.
 
 mod ci;
+mod csv;
+mod options;
+mod picture;
 mod reproduce;
+mod svg;
 mod task;
 mod tidy;
 
 use std::process::ExitCode;
 
+use options::Options;
 use task::{TaskError, workspace_root};
 
 const USAGE: &str = "\
@@ -17,7 +22,13 @@ Usage: cargo xtask <task>
 
 Tasks:
   tidy                   check what a compiler does not: arrows between rooms, file lengths, words that must not stand
-  reproduce --quick      run the first steps of the elastic-bottom tank at four settings and print the counts
+  reproduce              run the paper's tables, write paper/results and docs/reproduction.md
+    --table 1|2|3        only the runs of this table
+    --quick              only the first steps at a few settings, beside the counts they had before
+    --mode MODE          write (default), check: run nothing, fail where page and results differ, or print
+                         (with --quick: check is the default, write keeps the counts)
+    --jobs N             runs at a time (default: as many as there are cores)
+    --fresh              run again what is remembered
   ci [--skip NAME]...    run all that CI runs, in its order: test, fmt, clippy, doc, tidy, reproduce
 ";
 
@@ -37,7 +48,7 @@ fn dispatch(arguments: &[&str]) -> Result<(), TaskError> {
     let root = workspace_root();
     match arguments {
         ["tidy"] => tidy::run(root),
-        ["reproduce", "--quick"] => reproduce::quick(root),
+        ["reproduce", options @ ..] => reproduce::run(root, &Options::parse("reproduce", options)?),
         ["ci", options @ ..] => ci::run(root, &skipped(options)?),
         ["help" | "--help" | "-h"] => {
             print!("{USAGE}");

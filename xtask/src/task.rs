@@ -63,3 +63,47 @@ pub(crate) fn captured(mut command: Command) -> Result<String, TaskError> {
         Err(TaskError::Command { command: shown(&command), status: output.status })
     }
 }
+
+/// The text of a file.
+pub(crate) fn read(path: &Path) -> Result<String, TaskError> {
+    std::fs::read_to_string(path).map_err(|source| TaskError::File { path: path.to_owned(), source })
+}
+
+/// The bytes of a file.
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, TaskError> {
+    std::fs::read(path).map_err(|source| TaskError::File { path: path.to_owned(), source })
+}
+
+/// Writes a file, and the folders it stands in where they are missing.
+pub(crate) fn write(path: &Path, text: &str) -> Result<(), TaskError> {
+    let fail = |source| TaskError::File { path: path.to_owned(), source };
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(fail)?;
+    }
+    std::fs::write(path, text).map_err(fail)
+}
+
+/// Removes a folder and what is in it, if it is there.
+pub(crate) fn remove_folder(path: &Path) -> Result<(), TaskError> {
+    match std::fs::remove_dir_all(path) {
+        Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+            Err(TaskError::File { path: path.to_owned(), source })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Names and contents of the files in a folder, sorted by name; folders in it are left out.
+pub(crate) fn files_of(folder: &Path) -> Result<Vec<(String, Vec<u8>)>, TaskError> {
+    let fail = |source| TaskError::File { path: folder.to_owned(), source };
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(fail)? {
+        let path = entry.map_err(fail)?.path();
+        if path.is_file() {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            files.push((name, read_bytes(&path)?));
+        }
+    }
+    files.sort();
+    Ok(files)
+}

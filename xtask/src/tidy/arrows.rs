@@ -26,7 +26,7 @@ const STRANGERS: [(&str, &str); 8] = [
 const RESERVED: [(&str, &[&str]); 5] = [
     ("faer", &["numerics"]),
     ("clap", &["cli"]),
-    ("indicatif", &["cli"]),
+    ("indicatif", &["cli", "xtask"]),
     ("miette", &["cli", "fuzz"]),
     ("toml", &["cli", "iga", "xtask"]),
 ];

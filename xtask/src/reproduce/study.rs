@@ -1,0 +1,111 @@
+//! The runs that the facts about a case need, and the facts they give.
+
+use super::case::{Case, product};
+use super::facts::{Cost, Facts, Relaxation};
+use super::run::{Outcome, Run};
+use super::setting::{Adaptive, Limits, Setting};
+use super::workshop::{Spent, Workshop};
+use crate::task::TaskError;
+
+/// A case at a number of settings, with some keys of its scene changed.
+#[derive(Debug, Clone)]
+pub(crate) struct Study {
+    pub(crate) case: Case,
+    pub(crate) limits: Vec<Limits>,
+    pub(crate) adaptive: Vec<Adaptive>,
+    /// Whether constant relaxation is tried.
+    pub(crate) relaxation: bool,
+    pub(crate) changes: Vec<String>,
+}
+
+impl Study {
+    /// The case's whole table.
+    pub(crate) fn of_table(case: Case) -> Self {
+        Self { case, limits: case.grid(), adaptive: Vec::new(), relaxation: true, changes: Vec::new() }
+    }
+
+    /// The case's part of table 3.
+    pub(crate) fn of_adaptive(case: Case) -> Self {
+        Self { limits: Vec::new(), adaptive: Adaptive::ALL.to_vec(), relaxation: false, ..Self::of_table(case) }
+    }
+
+    /// Limits 1, 2 and inf of both fields and table 3: the least that every claim can be judged on.
+    pub(crate) fn small(case: Case, changes: Vec<String>) -> Self {
+        let limits = product(&[1, 2], &[1, 2]);
+        Self { limits, adaptive: Adaptive::ALL.to_vec(), changes, ..Self::of_table(case) }
+    }
+
+    fn settings(&self) -> impl Iterator<Item = Setting> {
+        let fixed = self.limits.iter().copied().map(Setting::Fixed);
+        fixed.chain(self.adaptive.iter().copied().map(Setting::Adaptive))
+    }
+
+    /// All runs; that with constant relaxation, which the beam has anyway, comes last.
+    pub(crate) fn runs(&self) -> Vec<Run> {
+        let mut runs: Vec<Run> =
+            self.settings().map(|setting| Run::new(self.case, setting).with(&self.changes)).collect();
+        if self.relaxation && self.case == Case::Tank {
+            let relaxed = Run::new(self.case, Setting::Fixed(Limits::UNLIMITED)).with(&self.changes);
+            runs.push(relaxed.with(&["coupling.acceleration.constant.relaxation=0.8".to_owned()]));
+        }
+        runs
+    }
+
+    /// What the outcomes of [`runs`](Self::runs) say.
+    pub(crate) fn facts(&self, outcomes: &[Outcome]) -> Facts {
+        let seen: Vec<(Setting, &Outcome)> = self.settings().zip(outcomes).collect();
+        let unlimited = seen.iter().find(|(setting, _)| *setting == Setting::Fixed(Limits::UNLIMITED));
+        let relaxed = match self.case {
+            Case::Tank => outcomes.get(seen.len()),
+            Case::Beam => unlimited.map(|(_, outcome)| *outcome),
+        };
+        Facts {
+            case: self.case,
+            grid: seen
+                .iter()
+                .filter_map(|(setting, outcome)| match setting {
+                    Setting::Fixed(limits) => Some((*limits, outcome.counts())),
+                    Setting::Adaptive(_) => None,
+                })
+                .collect(),
+            adaptive: seen
+                .iter()
+                .filter_map(|(setting, outcome)| match setting {
+                    Setting::Fixed(_) => None,
+                    Setting::Adaptive(adaptive) => Some((*adaptive, outcome.counts())),
+                })
+                .collect(),
+            relaxation: self.relaxation.then(|| relaxed.map(Relaxation::seen)).flatten(),
+            longest_structure_call: unlimited.map(|(_, outcome)| outcome.longest_structure_call),
+            costs: seen.iter().filter_map(|(setting, outcome)| Cost::seen(*setting, outcome)).collect(),
+        }
+    }
+}
+
+/// Does the runs of all studies in one batch and returns the facts of each.
+pub(crate) fn carry_out(workshop: &Workshop<'_>, studies: &[Study]) -> Result<(Vec<Facts>, Spent), TaskError> {
+    let runs: Vec<Vec<Run>> = studies.iter().map(Study::runs).collect();
+    let (outcomes, spent) = workshop.run_all(&runs.concat())?;
+    let mut rest = outcomes.as_slice();
+    let mut facts = Vec::new();
+    for (study, runs) in studies.iter().zip(&runs) {
+        let (own, others) = rest.split_at(runs.len());
+        facts.push(study.facts(own));
+        rest = others;
+    }
+    Ok((facts, spent))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_three_tables_are_sixty_six_runs() {
+        let tables = Case::ALL.map(|case| Study { relaxation: false, ..Study::of_table(case) });
+        let adaptive = Case::ALL.map(Study::of_adaptive);
+        let count: usize = tables.iter().chain(&adaptive).map(|study| study.runs().len()).sum();
+        assert_eq!(count, 66);
+        assert_eq!(Study::of_table(Case::Tank).runs().len(), 37);
+    }
+}

@@ -1,0 +1,164 @@
+//! The little of SVG that our figures need.
+
+use std::fmt::Write as _;
+
+/// A drawing under construction; lengths are pixels, the origin is the upper left corner.
+pub(crate) struct Svg {
+    width: f64,
+    height: f64,
+    title: String,
+    body: String,
+}
+
+/// Where a text stands relative to its place.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+}
+
+impl Svg {
+    /// A white sheet; `title` is read out where the drawing is not seen.
+    pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
+        Self { width, height, title: escaped(title), body: String::new() }
+    }
+
+    pub(crate) fn rectangle(&mut self, corner: [f64; 2], size: [f64; 2], fill: Colour) {
+        let ([x, y], [width, height]) = (corner, size);
+        self.line(&format!(
+            r#"<rect x="{x:.2}" y="{y:.2}" width="{width:.2}" height="{height:.2}" fill="{}"/>"#,
+            fill.hex()
+        ));
+    }
+
+    /// A polygon, with its edges drawn where `stroke` says so.
+    pub(crate) fn polygon(&mut self, points: &[[f64; 2]], fill: Colour, stroke: Option<(Colour, f64)>) {
+        let points: Vec<String> = points.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
+        // Without edges of its own colour a hairline of the sheet shines through between neighbours.
+        let (colour, width) = stroke.unwrap_or((fill, 0.3));
+        self.line(&format!(
+            r#"<polygon points="{}" fill="{}" stroke="{}" stroke-width="{width}"/>"#,
+            points.join(" "),
+            fill.hex(),
+            colour.hex()
+        ));
+    }
+
+    pub(crate) fn text(&mut self, place: [f64; 2], size: f64, anchor: Anchor, fill: Colour, text: &str) {
+        let [x, y] = place;
+        let anchor = match anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+        };
+        self.line(&format!(
+            r#"<text x="{x:.2}" y="{y:.2}" font-size="{size}" text-anchor="{anchor}" fill="{}">{}</text>"#,
+            fill.hex(),
+            escaped(text)
+        ));
+    }
+
+    /// A bar of the colours from `low` (below) to `high` (above), with both written beside it.
+    pub(crate) fn colour_bar(&mut self, corner: [f64; 2], size: [f64; 2], low: &str, high: &str) {
+        const STRIPES: usize = 40;
+        let ([x, y], [width, height]) = (corner, size);
+        for stripe in 0..STRIPES {
+            let part = stripe as f64 / STRIPES as f64;
+            let top = y + height * (1.0 - part - 1.0 / STRIPES as f64);
+            self.rectangle([x, top], [width, height / STRIPES as f64 + 0.5], Colour::on_scale(part));
+        }
+        self.text([x + width + 5.0, y + 10.0], 11.0, Anchor::Start, Colour::BLACK, high);
+        self.text([x + width + 5.0, y + height], 11.0, Anchor::Start, Colour::BLACK, low);
+    }
+
+    fn line(&mut self, element: &str) {
+        writeln!(self.body, "{element}").expect("a String takes any text");
+    }
+
+    /// The file's text.
+    pub(crate) fn finish(self) -> String {
+        let Self { width, height, title, body } = self;
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
+             height=\"{height}\" font-family=\"sans-serif\">\n<title>{title}</title>\n\
+             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{body}</svg>\n"
+        )
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// Red, green and blue, 0 to 255.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Colour([f64; 3]);
+
+impl Colour {
+    pub(crate) const BLACK: Self = Self([0.0; 3]);
+    pub(crate) const WHITE: Self = Self([255.0; 3]);
+    pub(crate) const GREY: Self = Self([120.0; 3]);
+    /// A colour that the scale does not have.
+    pub(crate) const STEEL: Self = Self([205.0, 92.0, 60.0]);
+
+    /// Dark blue at 0 over green to yellow at 1; rising in brightness, so that it survives a copier.
+    pub(crate) fn on_scale(part: f64) -> Self {
+        const STOPS: [[f64; 3]; 5] = [
+            [62.0, 20.0, 90.0],
+            [57.0, 86.0, 140.0],
+            [32.0, 146.0, 140.0],
+            [98.0, 202.0, 96.0],
+            [252.0, 230.0, 60.0],
+        ];
+        let place = part.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
+        let below = (0..STOPS.len() - 1).rfind(|&stop| stop as f64 <= place).unwrap_or(0);
+        let share = place - below as f64;
+        let mut mixed = [0.0; 3];
+        for channel in 0..3 {
+            mixed[channel] = (1.0 - share) * STOPS[below][channel] + share * STOPS[below + 1][channel];
+        }
+        Self(mixed)
+    }
+
+    /// Black or white, whichever is read better on this.
+    pub(crate) fn ink(self) -> Self {
+        let [red, green, blue] = self.0;
+        if 0.299 * red + 0.587 * green + 0.114 * blue > 140.0 { Self::BLACK } else { Self::WHITE }
+    }
+
+    fn hex(self) -> String {
+        let [red, green, blue] = self.0;
+        format!("#{red:02x}{green:02x}{blue:02x}", red = byte(red), green = byte(green), blue = byte(blue))
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the value is held between 0 and 255")]
+fn byte(value: f64) -> u8 {
+    value.round().clamp(0.0, 255.0) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scale_grows_brighter() {
+        let brightness = |part: f64| Colour::on_scale(part).0.iter().sum::<f64>();
+        assert!((0..20).all(|i| brightness(f64::from(i) / 20.0) < brightness(f64::from(i + 1) / 20.0)));
+        assert_eq!(Colour::on_scale(-1.0).hex(), "#3e145a");
+        assert_eq!(Colour::on_scale(2.0).hex(), "#fce63c");
+        assert_eq!((Colour::on_scale(0.0).ink(), Colour::on_scale(1.0).ink()), (Colour::WHITE, Colour::BLACK));
+    }
+
+    #[test]
+    fn a_drawing_is_a_file() {
+        let mut svg = Svg::new(10.0, 20.0, "a < b");
+        svg.text([1.0, 2.0], 11.0, Anchor::Middle, Colour::BLACK, "x & y");
+        insta::assert_snapshot!(svg.finish(), @r##"
+        <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 20" width="10" height="20" font-family="sans-serif">
+        <title>a &lt; b</title>
+        <rect width="10" height="20" fill="#ffffff"/>
+        <text x="1.00" y="2.00" font-size="11" text-anchor="middle" fill="#000000">x &amp; y</text>
+        </svg>
+        "##);
+    }
+}

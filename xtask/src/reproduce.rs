@@ -22,6 +22,7 @@ pub(crate) mod workshop;
 use std::path::Path;
 
 use crate::options::{Mode, Options};
+use crate::picture;
 use crate::task::{self, TaskError};
 use case::Case;
 use facts::Facts;
@@ -39,7 +40,9 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<(), TaskError> {
     match options.mode.unwrap_or(Mode::Write) {
         Mode::Check => check_pages(root),
         Mode::Write => {
-            let (ours, spent) = tables(root, options)?;
+            let workshop = Workshop::open(root, options.jobs, !options.fresh)?;
+            let (ours, spent) = tables(root, &workshop, options)?;
+            picture::write_all(root, &workshop)?;
             let published = Published::read(root)?;
             results::write(root, &ours, &published)?;
             let page = Page::read(root)?;
@@ -52,7 +55,8 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<(), TaskError> {
             Ok(())
         }
         Mode::Print => {
-            let (ours, spent) = tables(root, options)?;
+            let workshop = Workshop::open(root, options.jobs, !options.fresh)?;
+            let (ours, spent) = tables(root, &workshop, options)?;
             let page = Page::new(root, Published::read(root)?, ours)?;
             print!("{}", page.text());
             say(spent);
@@ -85,13 +89,12 @@ pub(crate) fn check_pages(root: &Path) -> Result<(), TaskError> {
 }
 
 /// Runs the tables asked for; the other results stay as they are.
-fn tables(root: &Path, options: &Options) -> Result<([Facts; 2], Spent), TaskError> {
+fn tables(root: &Path, workshop: &Workshop<'_>, options: &Options) -> Result<([Facts; 2], Spent), TaskError> {
     let wanted = |table: usize| options.table.is_none_or(|only| only == table);
     let grids = Case::ALL.into_iter().filter(|case| wanted(case.table())).map(Study::of_table);
     let adaptive = Case::ALL.into_iter().filter(|_| wanted(3)).map(Study::of_adaptive);
     let studies: Vec<Study> = grids.chain(adaptive).collect();
-    let workshop = Workshop::open(root, options.jobs, !options.fresh)?;
-    let (found, spent) = carry_out(&workshop, &studies)?;
+    let (found, spent) = carry_out(workshop, &studies)?;
     let mut ours = results::read(root)?;
     for facts in found {
         ours[facts.case as usize].take(facts);
@@ -101,5 +104,7 @@ fn tables(root: &Path, options: &Options) -> Result<([Facts; 2], Spent), TaskErr
 
 fn say(spent: Spent) {
     let Spent { done, wall_seconds, cpu_seconds } = spent;
-    eprintln!("{done} runs done, the others remembered: {wall_seconds:.1} s, {cpu_seconds:.1} s of processor time");
+    eprintln!(
+        "{done} runs done, the others remembered: {wall_seconds:.1} s, {cpu_seconds:.1} s of processor time"
+    );
 }

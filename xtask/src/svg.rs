@@ -31,16 +31,22 @@ impl Svg {
         ));
     }
 
-    /// A polygon, with its edges drawn where `stroke` says so.
-    pub(crate) fn polygon(&mut self, points: &[[f64; 2]], fill: Colour, stroke: Option<(Colour, f64)>) {
-        let points: Vec<String> = points.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
-        // Without edges of its own colour a hairline of the sheet shines through between neighbours.
-        let (colour, width) = stroke.unwrap_or((fill, 0.3));
+    /// A polygon of one colour. Its edge has that colour too: a hairline of the sheet would shine through between
+    /// neighbours.
+    pub(crate) fn polygon(&mut self, points: &[[f64; 2]], fill: Colour) {
+        let fill = fill.hex();
         self.line(&format!(
-            r#"<polygon points="{}" fill="{}" stroke="{}" stroke-width="{width}"/>"#,
-            points.join(" "),
-            fill.hex(),
-            colour.hex()
+            r#"<polygon points="{}" fill="{fill}" stroke="{fill}"/>"#,
+            joined(points)
+        ));
+    }
+
+    /// The edges of a polygon.
+    pub(crate) fn outline(&mut self, points: &[[f64; 2]], stroke: Colour, width: f64) {
+        self.line(&format!(
+            r#"<polygon points="{}" fill="none" stroke="{}" stroke-width="{width}"/>"#,
+            joined(points),
+            stroke.hex()
         ));
     }
 
@@ -78,11 +84,15 @@ impl Svg {
     pub(crate) fn finish(self) -> String {
         let Self { width, height, title, body } = self;
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
-             height=\"{height}\" font-family=\"sans-serif\">\n<title>{title}</title>\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{body}</svg>\n"
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" \
+             height=\"{height:.0}\" font-family=\"sans-serif\" stroke-width=\"0.3\">\n<title>{title}</title>\n\
+             <rect width=\"{width:.0}\" height=\"{height:.0}\" fill=\"#ffffff\"/>\n{body}</svg>\n"
         )
     }
+}
+
+fn joined(points: &[[f64; 2]]) -> String {
+    points.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect::<Vec<_>>().join(" ")
 }
 
 fn escaped(text: &str) -> String {
@@ -131,7 +141,11 @@ impl Colour {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the value is held between 0 and 255")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the value is held between 0 and 255"
+)]
 fn byte(value: f64) -> u8 {
     value.round().clamp(0.0, 255.0) as u8
 }
@@ -146,7 +160,10 @@ mod tests {
         assert!((0..20).all(|i| brightness(f64::from(i) / 20.0) < brightness(f64::from(i + 1) / 20.0)));
         assert_eq!(Colour::on_scale(-1.0).hex(), "#3e145a");
         assert_eq!(Colour::on_scale(2.0).hex(), "#fce63c");
-        assert_eq!((Colour::on_scale(0.0).ink(), Colour::on_scale(1.0).ink()), (Colour::WHITE, Colour::BLACK));
+        assert_eq!(
+            (Colour::on_scale(0.0).ink(), Colour::on_scale(1.0).ink()),
+            (Colour::WHITE, Colour::BLACK)
+        );
     }
 
     #[test]
@@ -154,7 +171,7 @@ mod tests {
         let mut svg = Svg::new(10.0, 20.0, "a < b");
         svg.text([1.0, 2.0], 11.0, Anchor::Middle, Colour::BLACK, "x & y");
         insta::assert_snapshot!(svg.finish(), @r##"
-        <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 20" width="10" height="20" font-family="sans-serif">
+        <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 20" width="10" height="20" font-family="sans-serif" stroke-width="0.3">
         <title>a &lt; b</title>
         <rect width="10" height="20" fill="#ffffff"/>
         <text x="1.00" y="2.00" font-size="11" text-anchor="middle" fill="#000000">x &amp; y</text>

@@ -135,7 +135,8 @@ pub(crate) struct Judged {
 impl Judged {
     /// The evidence of all cases.
     pub(crate) fn evidence(&self) -> String {
-        let parts = self.verdicts.iter().map(|(case, verdict)| format!("{}: {}", case.short(), verdict.evidence));
+        let parts =
+            self.verdicts.iter().map(|(case, verdict)| format!("{}: {}", case.short(), verdict.evidence));
         parts.collect::<Vec<_>>().join("; ")
     }
 

@@ -112,7 +112,10 @@ impl Grid {
             self.cells.iter().map(|(&limits, counts)| Some((limits, (*counts)?.newton()))).collect();
         let totals = totals?;
         let least = totals.iter().map(|(_, total)| *total).min()?;
-        Some((totals.into_iter().filter(|(_, total)| *total == least).map(|(limits, _)| limits).collect(), least))
+        Some((
+            totals.into_iter().filter(|(_, total)| *total == least).map(|(limits, _)| limits).collect(),
+            least,
+        ))
     }
 }
 

@@ -64,7 +64,9 @@ impl Facts {
 pub(crate) enum Relaxation {
     Converges,
     /// A step, if one is known, cannot be solved.
-    Fails { step: Option<usize> },
+    Fails {
+        step: Option<usize>,
+    },
 }
 
 impl Relaxation {

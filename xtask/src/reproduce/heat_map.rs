@@ -27,7 +27,8 @@ pub(crate) fn side_by_side(title: &str, panels: [(&str, &Grid); 2], count: Count
 }
 
 fn range(grids: [&Grid; 2], count: Count) -> (usize, usize) {
-    let values = || grids.iter().flat_map(|grid| grid.cells.values().flatten()).map(|&counts| count.of(counts));
+    let values =
+        || grids.iter().flat_map(|grid| grid.cells.values().flatten()).map(|&counts| count.of(counts));
     (values().min().unwrap_or(0), values().max().unwrap_or(0))
 }
 

@@ -116,7 +116,8 @@ mod tests {
     fn perfect() -> Page {
         let root = workspace_root();
         let facts = Published::read(root).expect("the files are there").facts;
-        Page::new(root, Published::read(root).expect("the files are there"), facts).expect("the scenes are there")
+        Page::new(root, Published::read(root).expect("the files are there"), facts)
+            .expect("the scenes are there")
     }
 
     #[test]

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::case::Case;
 use super::counts::{Count, Counts};
+use super::results;
 use super::run::{Outcome, Run};
 use super::setting::{Adaptive, Limit, Limits, Setting};
 use super::workshop::Workshop;
-use super::results;
 use crate::csv::Csv;
 use crate::options::Mode;
 use crate::task::{self, TaskError};
@@ -66,10 +66,11 @@ fn table(runs: &[Run], outcomes: &[Outcome]) -> Result<Csv, TaskError> {
     let columns = Count::ALL.map(Count::column);
     let mut table = Csv::new(["case", "setting"].into_iter().chain(columns));
     for (run, outcome) in runs.iter().zip(outcomes) {
-        let counts: Counts = outcome.counts().filter(|_| outcome.summary.steps == STEPS).ok_or_else(|| {
-            let said = outcome.failure.as_deref().unwrap_or("a step ended on the iteration bound");
-            TaskError::Failed(format!("{} {}: {said}", run.case, run.setting))
-        })?;
+        let counts: Counts =
+            outcome.counts().filter(|_| outcome.summary.steps == STEPS).ok_or_else(|| {
+                let said = outcome.failure.as_deref().unwrap_or("a step ended on the iteration bound");
+                TaskError::Failed(format!("{} {}: {said}", run.case, run.setting))
+            })?;
         let mut row = vec![run.case.to_string(), run.setting.to_string()];
         row.extend(Count::ALL.map(|count| count.of(counts).to_string()));
         table.push(row);
@@ -104,7 +105,14 @@ mod tests {
 
     fn counts(coupling: usize, fluid: usize) -> Csv {
         let mut table = Csv::new(["case", "setting"].into_iter().chain(Count::ALL.map(Count::column)));
-        let row = ["elastic_bottom", "1/1", &coupling.to_string(), &(fluid + 50).to_string(), &fluid.to_string(), "50"];
+        let row = [
+            "elastic_bottom",
+            "1/1",
+            &coupling.to_string(),
+            &(fluid + 50).to_string(),
+            &fluid.to_string(),
+            "50",
+        ];
         table.push(row.map(str::to_owned).to_vec());
         table
     }
@@ -112,7 +120,9 @@ mod tests {
     #[test]
     fn counts_may_differ_by_two_percent() {
         let kept = counts(60, 200);
-        for (coupling, fluid, expected) in [(60, 200, 0), (61, 204, 0), (60, 205, 1), (62, 200, 1), (58, 194, 3)] {
+        for (coupling, fluid, expected) in
+            [(60, 200, 0), (61, 204, 0), (60, 205, 1), (62, 200, 1), (58, 194, 3)]
+        {
             let found = differences(&kept, &counts(coupling, fluid)).expect("the same settings");
             assert_eq!(found.len(), expected, "{found:?}");
         }

@@ -111,8 +111,7 @@ pub(crate) fn start(
     let mut command = Command::new(binary);
     command.current_dir(root).arg("run").args(arguments).args(["--quiet", "--out"]).arg(folder);
     command.stdin(Stdio::null()).stdout(Stdio::null()).env("NO_COLOR", "1");
-    let output =
-        command.output().map_err(|source| TaskError::Start { command: shown(&command), source })?;
+    let output = command.output().map_err(|source| TaskError::Start { command: shown(&command), source })?;
     if output.status.success() {
         return Ok(None);
     }

@@ -176,7 +176,10 @@ mod tests {
     #[test]
     fn settings_are_keys_of_the_scene() {
         let fixed = Setting::Fixed(Limits::of("2", "inf"));
-        assert_eq!(fixed.overrides(), ["coupling.newton.fixed.fluid=2", "coupling.newton.fixed.structure=unlimited"]);
+        assert_eq!(
+            fixed.overrides(),
+            ["coupling.newton.fixed.fluid=2", "coupling.newton.fixed.structure=unlimited"]
+        );
         assert_eq!(Setting::Adaptive(Adaptive::N3Cc).overrides(), ["coupling.newton.until_coupled=3"]);
     }
 }

@@ -26,7 +26,12 @@ impl Study {
 
     /// The case's part of table 3.
     pub(crate) fn of_adaptive(case: Case) -> Self {
-        Self { limits: Vec::new(), adaptive: Adaptive::ALL.to_vec(), relaxation: false, ..Self::of_table(case) }
+        Self {
+            limits: Vec::new(),
+            adaptive: Adaptive::ALL.to_vec(),
+            relaxation: false,
+            ..Self::of_table(case)
+        }
     }
 
     /// Limits 1, 2 and inf of both fields and table 3: the least that every claim can be judged on.
@@ -83,7 +88,10 @@ impl Study {
 }
 
 /// Does the runs of all studies in one batch and returns the facts of each.
-pub(crate) fn carry_out(workshop: &Workshop<'_>, studies: &[Study]) -> Result<(Vec<Facts>, Spent), TaskError> {
+pub(crate) fn carry_out(
+    workshop: &Workshop<'_>,
+    studies: &[Study],
+) -> Result<(Vec<Facts>, Spent), TaskError> {
     let runs: Vec<Vec<Run>> = studies.iter().map(Study::runs).collect();
     let (outcomes, spent) = workshop.run_all(&runs.concat())?;
     let mut rest = outcomes.as_slice();

@@ -49,7 +49,8 @@ impl<'a> Workshop<'a> {
     /// Builds the release binary. `jobs` runs go at a time; without `remember` every run is done anew.
     pub(crate) fn open(root: &'a Path, jobs: usize, remember: bool) -> Result<Self, TaskError> {
         let binary = build(root)?;
-        let target = binary.parent().and_then(Path::parent).expect("cargo puts a binary into target/<profile>");
+        let target =
+            binary.parent().and_then(Path::parent).expect("cargo puts a binary into target/<profile>");
         let folder = target.join("reproduce");
         let revision = checksum(&task::read_bytes(&binary)?);
         Ok(Self { root, binary, revision, folder, jobs, remember })
@@ -130,7 +131,10 @@ impl<'a> Workshop<'a> {
         let outcome = run::read_outcome(&folder, failure)?;
         task::remove_folder(&folder)?;
         let kept = Kept { key: key.to_owned(), outcome };
-        task::write(&self.kept(key), &serde_json::to_string_pretty(&kept).expect("an outcome is plain data"))?;
+        task::write(
+            &self.kept(key),
+            &serde_json::to_string_pretty(&kept).expect("an outcome is plain data"),
+        )?;
         Ok(kept.outcome)
     }
 }

@@ -100,7 +100,10 @@ mod tests {
         let mut rising = tank.clone();
         cell(&mut rising, "3", "2", |counts| counts.coupling = 568);
         let verdict = fluid_iterations_save_coupling(&rising);
-        assert_eq!((verdict.holds, verdict.evidence.as_str()), (Some(false), "N^s = 2: 568 at 3 exceeds 567 at 1"));
+        assert_eq!(
+            (verdict.holds, verdict.evidence.as_str()),
+            (Some(false), "N^s = 2: 568 at 3 exceeds 567 at 1")
+        );
 
         let mut flat = beam;
         cell(&mut flat, "inf", "3", |counts| counts.coupling = 921);
@@ -116,7 +119,10 @@ mod tests {
         assert_eq!(structure_iterations_save_coupling(&beam).holds, Some(true));
         cell(&mut tank, "4", "inf", |counts| counts.coupling = 408);
         let verdict = structure_iterations_save_coupling(&tank);
-        assert_eq!((verdict.holds, verdict.evidence.as_str()), (Some(false), "N^f = 4: 408 at inf exceeds 407 at 1"));
+        assert_eq!(
+            (verdict.holds, verdict.evidence.as_str()),
+            (Some(false), "N^f = 4: 408 at inf exceeds 407 at 1")
+        );
     }
 
     #[test]
@@ -126,16 +132,21 @@ mod tests {
         assert_eq!(structure_iterations_do_not_matter(&beam).holds, Some(true));
         cell(&mut beam, "3", "2", |counts| counts.coupling = 729);
         let verdict = structure_iterations_do_not_matter(&beam);
-        assert_eq!((verdict.holds, verdict.evidence.as_str()), (Some(false), "they vary by at most 1.1 % (at N^f = 3)"));
+        assert_eq!(
+            (verdict.holds, verdict.evidence.as_str()),
+            (Some(false), "they vary by at most 1.1 % (at N^f = 3)")
+        );
     }
 
     #[test]
     fn a_run_that_fails_bears_nothing_out() {
         let [mut tank, _] = published();
         fail(&mut tank, "5", "5");
-        for judge in
-            [fluid_iterations_save_coupling, structure_iterations_save_coupling, structure_iterations_do_not_matter]
-        {
+        for judge in [
+            fluid_iterations_save_coupling,
+            structure_iterations_save_coupling,
+            structure_iterations_do_not_matter,
+        ] {
             assert_eq!(judge(&tank).holds, Some(false));
         }
     }

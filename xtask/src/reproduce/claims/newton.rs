@@ -32,7 +32,10 @@ mod tests {
         assert_eq!(one_a_call_is_cheapest(&beam).holds, Some(true));
         cell(&mut tank, "2", "2", |counts| counts.fluid = 1165 - counts.structure);
         let verdict = one_a_call_is_cheapest(&tank);
-        assert_eq!((verdict.holds, verdict.evidence.as_str()), (Some(false), "1165 at (2, 2) is below 1166 at (1, 1)"));
+        assert_eq!(
+            (verdict.holds, verdict.evidence.as_str()),
+            (Some(false), "1165 at (2, 2) is below 1166 at (1, 1)")
+        );
         let mut incomplete = beam;
         fail(&mut incomplete, "2", "2");
         assert_eq!(one_a_call_is_cheapest(&incomplete).holds, Some(false));

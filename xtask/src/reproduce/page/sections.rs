@@ -113,12 +113,18 @@ fn correlations(case: Case, costs: &[Cost], prices: &Prices) -> Vec<String> {
 fn answer(case: Case, costs: &[Cost], prices: &Prices) -> String {
     let Some(correlation) = time_follows_newton(costs) else { return String::new() };
     let ratio = prices.fluid / prices.structure;
-    let verdict = if correlation >= 0.9 { "puts the settings in the order of their run time" } else { "does not put the settings in the order of their run time" };
+    let verdict = if correlation >= 0.9 {
+        "puts the settings in the order of their run time"
+    } else {
+        "does not put the settings in the order of their run time"
+    };
     let one = (1.0 / 1.5..1.5).contains(&ratio);
     let reason = if one {
         "an iteration of either field costs about the same".to_owned()
     } else {
-        format!("a fluid iteration costs {ratio:.1} times a structure iteration, and the total counts both alike")
+        format!(
+            "a fluid iteration costs {ratio:.1} times a structure iteration, and the total counts both alike"
+        )
     };
     format!(
         "**{}: is the Newton total a good measure of run time?** It {verdict} (rank correlation {correlation:.2}); {reason}. \
@@ -150,9 +156,8 @@ fn times(ours: &[Facts; 2]) -> String {
             .into_iter()
             .map(|fluid| {
                 let row = columns.iter().map(|&structure| {
-                    let found = costs.iter().find(|cost| {
-                        cost.setting.to_string() == format!("{fluid}/{structure}")
-                    });
+                    let found =
+                        costs.iter().find(|cost| cost.setting.to_string() == format!("{fluid}/{structure}"));
                     found.map_or_else(|| "-".to_owned(), |cost| format!("{:.2}", cost.wall_seconds))
                 });
                 std::iter::once(fluid.to_string()).chain(row).collect()
@@ -160,7 +165,9 @@ fn times(ours: &[Facts; 2]) -> String {
             .collect();
         text += &format!("\n{}", table(&header, &rows));
     }
-    text + &format!("\nAll {runs} runs together: {wall:.0} s one after the other, {cpu:.0} s of processor time.\n")
+    text + &format!(
+        "\nAll {runs} runs together: {wall:.0} s one after the other, {cpu:.0} s of processor time.\n"
+    )
 }
 
 /// The two snapshots of the paper.

@@ -20,8 +20,9 @@ pub(super) fn grid_section(facts: &Facts, published: &Published) -> String {
         title(case)
     );
     let columns = reference.grid.structure_limits();
-    let header: Vec<String> =
-        std::iter::once("N^f".to_owned()).chain(columns.iter().map(|limit| format!("N^s = {limit}"))).collect();
+    let header: Vec<String> = std::iter::once("N^f".to_owned())
+        .chain(columns.iter().map(|limit| format!("N^s = {limit}")))
+        .collect();
     for count in Count::ALL {
         let rows: Vec<Vec<String>> = reference
             .grid
@@ -30,7 +31,11 @@ pub(super) fn grid_section(facts: &Facts, published: &Published) -> String {
             .map(|fluid| {
                 let cells = columns.iter().map(|&structure| {
                     let setting = Setting::Fixed(Limits { fluid, structure });
-                    let mark = if count == Count::Structure && misprinted(published, case, setting) { " \\*" } else { "" };
+                    let mark = if count == Count::Structure && misprinted(published, case, setting) {
+                        " \\*"
+                    } else {
+                        ""
+                    };
                     cell(facts.counts(setting), reference.counts(setting), count) + mark
                 });
                 std::iter::once(fluid.to_string()).chain(cells).collect()
@@ -94,7 +99,10 @@ pub(super) fn adaptive_section(ours: &[Facts; 2], published: &Published) -> Stri
             rows.push(start.into_iter().chain(cells).collect());
         }
     }
-    format!("\n## Table 3: adaptive limits\n\nEach cell: ours / published (deviation).\n\n{}", table(&header, &rows))
+    format!(
+        "\n## Table 3: adaptive limits\n\nEach cell: ours / published (deviation).\n\n{}",
+        table(&header, &rows)
+    )
 }
 
 /// How many cells lie within each class of deviation, by table and count.
@@ -122,7 +130,9 @@ pub(super) fn distribution(ours: &[Facts; 2], published: &Published) -> String {
             .grid
             .cells
             .iter()
-            .map(|(&limits, counts)| (facts.grid.get(limits), counts.expect("the published tables are complete")))
+            .map(|(&limits, counts)| {
+                (facts.grid.get(limits), counts.expect("the published tables are complete"))
+            })
             .collect();
         for count in Count::ALL {
             line(&facts.case.table().to_string(), count, &pairs);
@@ -149,4 +159,3 @@ pub(super) fn distribution(ours: &[Facts; 2], published: &Published) -> String {
         table(&header, &rows)
     )
 }
-

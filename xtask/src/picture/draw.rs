@@ -1,0 +1,127 @@
+//! Mesh, field and structure in one drawing.
+
+use super::vtu::Piece;
+use crate::svg::{Anchor, Colour, Svg};
+
+/// Longer side of what is drawn, in pixels.
+const EXTENT: f64 = 620.0;
+const MARGIN: f64 = 24.0;
+const HEAD: f64 = 34.0;
+/// Each triangle is coloured in so many parts a side, for the field is linear in it.
+const PARTS: usize = 1;
+
+/// A scalar field and the range of its colours.
+pub(super) struct Scale {
+    label: String,
+    values: Vec<f64>,
+    low: f64,
+    high: f64,
+}
+
+impl Scale {
+    /// Colours from the smallest to the largest value.
+    pub(super) fn new(name: &str, unit: &str, values: Vec<f64>) -> Self {
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        Self { label: format!("{name} [{unit}]"), values, low, high }
+    }
+
+    fn colour(&self, value: f64) -> Colour {
+        let span = self.high - self.low;
+        Colour::on_scale(if span > 0.0 { (value - self.low) / span } else { 0.0 })
+    }
+}
+
+/// From metres to pixels.
+struct View {
+    left: f64,
+    top: f64,
+    pixels: f64,
+}
+
+impl View {
+    fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [MARGIN + (x - self.left) * self.pixels, HEAD + (self.top - y) * self.pixels]
+    }
+}
+
+/// The fluid's mesh coloured by the field, and the structure, both where they are.
+pub(super) fn deformed(title: &str, fluid: &Piece, structure: &Piece, scale: &Scale) -> String {
+    let points = || fluid.points.iter().chain(&structure.points);
+    let least = |axis: usize| points().map(|point| point[axis]).fold(f64::INFINITY, f64::min);
+    let most = |axis: usize| points().map(|point| point[axis]).fold(f64::NEG_INFINITY, f64::max);
+    let (width, height) = (most(0) - least(0), most(1) - least(1));
+    let view = View { left: least(0), top: most(1), pixels: EXTENT / width.max(height) };
+    let (width, height) = (width * view.pixels, height * view.pixels);
+    let mut svg = Svg::new(width + 2.0 * MARGIN + 90.0, height + HEAD + MARGIN, title);
+    svg.text([MARGIN, 20.0], 14.0, Anchor::Start, Colour::BLACK, title);
+    for cell in &fluid.cells {
+        triangle(&mut svg, &view, cell, fluid, scale);
+    }
+    for cell in &structure.cells {
+        let corners: Vec<[f64; 2]> =
+            cell.iter().map(|&corner| view.place(structure.points[corner])).collect();
+        svg.polygon(&corners, Colour::STEEL);
+    }
+    let bar = MARGIN + width + 14.0;
+    svg.text([bar, HEAD + 10.0], 11.0, Anchor::Start, Colour::BLACK, &scale.label);
+    let (low, high) = (rounded(scale.low), rounded(scale.high));
+    svg.colour_bar([bar, HEAD + 20.0], [14.0, 160.0], &low, &high);
+    svg.finish()
+}
+
+fn rounded(value: f64) -> String {
+    if value.abs() >= 100.0 { format!("{value:.0}") } else { format!("{value:.2}") }
+}
+
+/// The colours of a triangle, then its edges.
+fn triangle(svg: &mut Svg, view: &View, cell: &[usize], fluid: &Piece, scale: &Scale) {
+    let &[a, b, c] = cell else { return };
+    let corners = [a, b, c].map(|corner| view.place(fluid.points[corner]));
+    let values = [a, b, c].map(|corner| scale.values[corner]);
+    let part = PARTS as f64;
+    let at = |i: usize, j: usize| {
+        let (s, t) = (i as f64 / part, j as f64 / part);
+        let mix = |x: [f64; 3]| (1.0 - s - t) * x[0] + s * x[1] + t * x[2];
+        ([mix(corners.map(|p| p[0])), mix(corners.map(|p| p[1]))], mix(values))
+    };
+    let mut patch = |nodes: [(usize, usize); 3]| {
+        let nodes = nodes.map(|(i, j)| at(i, j));
+        let mean = nodes.iter().map(|(_, value)| value).sum::<f64>() / 3.0;
+        svg.polygon(&nodes.map(|(place, _)| place), scale.colour(mean));
+    };
+    for i in 0..PARTS {
+        for j in 0..PARTS - i {
+            patch([(i, j), (i + 1, j), (i, j + 1)]);
+            if i + j + 1 < PARTS {
+                patch([(i + 1, j), (i + 1, j + 1), (i, j + 1)]);
+            }
+        }
+    }
+    svg.outline(&corners, Colour::GREY, 0.35);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::vtu::tests::square;
+
+    #[test]
+    fn every_triangle_is_coloured_and_outlined_within_the_sheet() {
+        let piece = square();
+        let scale = Scale::new("pressure", "Pa", vec![0.0, 1.0, 1.0, 0.0]);
+        let text = deformed("square", &piece, &piece, &scale);
+        let count = |needle: &str| text.matches(needle).count();
+        assert_eq!(count("fill=\"none\""), 2, "an outline a triangle");
+        let coloured = 2 * PARTS * PARTS;
+        assert_eq!(count("<polygon"), coloured + 2 + piece.cells.len());
+        // The corner at the origin lies below left.
+        assert!(text.contains(&format!("{:.1},{:.1}", MARGIN, HEAD + EXTENT)), "{text}");
+    }
+
+    #[test]
+    fn a_constant_field_has_one_colour() {
+        let scale = Scale::new("pressure", "Pa", vec![2.0; 3]);
+        assert_eq!(scale.colour(2.0), Colour::on_scale(0.0));
+    }
+}

@@ -7,13 +7,12 @@ mod structure;
 
 use partita_coupling::{Block, March, Quantity, SetupError, Transfer};
 use partita_fluid::{FluidError, FluidSolver};
-use partita_iga::transfer::TransferError;
 use partita_numerics::newton::{self, Bound, Check};
 use partita_structure::{MaterialError, StructureError, StructureSolver};
 use thiserror::Error;
 
 pub(crate) use fluid::nearest_node;
-pub(crate) use structure::side;
+pub(crate) use structure::boundary;
 
 use crate::adapt::{Adapter, Slot};
 use crate::scene::{Resolved, schema};
@@ -38,9 +37,6 @@ pub enum BuildError {
     /// The structure.
     #[error(transparent)]
     Structure(#[from] StructureError),
-    /// Fluid and structure do not meet.
-    #[error(transparent)]
-    Interface(#[from] TransferError),
     /// The coupling.
     #[error(transparent)]
     Coupling(#[from] SetupError),
@@ -54,7 +50,7 @@ pub fn run(Resolved { scene, shapes, .. }: &Resolved) -> Result<Run, BuildError>
     let fluid = scene.fluid.as_ref().zip(shapes.fluid.clone());
     let fluid = fluid.map(|(scene, mesh)| fluid::solver(scene, mesh)).transpose()?;
     let structure = scene.structure.as_ref().zip(shapes.structure.clone());
-    let structure = structure.map(|(scene, patch)| structure::solver(scene, patch)).transpose()?;
+    let structure = structure.map(|(scene, space)| structure::solver(scene, space)).transpose()?;
     let (settings, transfers) = match (&scene.coupling, &fluid, &structure) {
         (Some(coupling), Some(fluid), Some(structure)) => {
             let tolerance = coupling.projection_tolerance.get();

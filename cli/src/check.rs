@@ -4,13 +4,12 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use partita_fluid::FluidSolver;
-use partita_iga::Spline;
 use partita_mesh::{Mesh, Place, quality, simplex};
-use partita_structure::StructureSolver;
+use partita_structure::{Space, StructureSolver};
 
 use crate::build::{self, BuildError};
 use crate::memory;
-use crate::scene::schema::{Condition, Coupling, Fluid, Side, Structure, plain};
+use crate::scene::schema::{Condition, Coupling, Fluid, Part, Structure, plain};
 use crate::scene::{Resolved, words};
 
 /// Builds the scene and describes it: title, meshes with their boundary groups, splines, interface, choices. The last
@@ -45,8 +44,7 @@ fn memory_of(fluid: Option<&FluidSolver<2>>, structure: Option<&StructureSolver<
     let of_fluid = fluid.map_or(0, |fluid| fluid.parts().iter().map(|part| part.dofs.len()).sum());
     let of_structure =
         structure.map_or(0, |structure| structure.parts().iter().map(|part| part.dofs.len()).sum());
-    let degrees =
-        structure.map_or([0; 2], |structure| [0, 1].map(|c| structure.spline().knots()[c].degree()));
+    let degrees = structure.map_or([0; 2], |structure| degrees(structure.space()));
     memory::estimate(of_fluid, of_structure, degrees)
 }
 
@@ -90,18 +88,9 @@ impl Page {
     }
 
     fn structure(&mut self, scene: &Structure, structure: &StructureSolver<2>) {
-        let spline = structure.spline();
         let unknowns: usize = structure.parts().iter().map(|part| part.dofs.len()).sum();
-        let [along, across] = [0, 1].map(|direction| spline.knots()[direction].element_count());
-        let [degree, other] = [0, 1].map(|direction| spline.knots()[direction].degree());
-        self.line(
-            "structure",
-            format!(
-                "{along} x {across} elements of degree {degree} x {other}, {} control points, {unknowns} unknowns",
-                spline.control_points().len()
-            ),
-        );
-        self.line("", extent_of(spline));
+        self.line("structure", format!("{}, {unknowns} unknowns", elements_of(structure.space())));
+        self.line("", extent(structure.space().points()));
         self.line("", words(&scene.material));
         self.line("", format!("body force {} N/m3 (per volume)", words(&scene.body_force)));
         self.line("", words(&scene.time_scheme));
@@ -123,7 +112,31 @@ fn centroid(mesh: &Mesh<2>, cell: usize) -> [f64; 2] {
     simplex::centroid(&simplex::vertices(mesh.points(), mesh.cells().cell(cell))[..3])
 }
 
-fn names(sides: &[Side]) -> String {
+/// What a structure is made of.
+fn elements_of(space: &Space<2>) -> String {
+    match space {
+        Space::Patch(spline) => {
+            let [along, across] = [0, 1].map(|direction| spline.knots()[direction].element_count());
+            let [degree, other] = degrees(space);
+            let points = spline.control_points().len();
+            format!("{along} x {across} elements of degree {degree} x {other}, {points} control points")
+        }
+        Space::Lagrange(mesh) => {
+            let cells = mesh.cells();
+            format!("{} elements {:?}, {} nodes", cells.len(), cells.kind, mesh.points().len())
+        }
+    }
+}
+
+fn degrees(space: &Space<2>) -> [usize; 2] {
+    match space {
+        Space::Patch(spline) => [0, 1].map(|direction| spline.knots()[direction].degree()),
+        // About as many functions meet at a node as for a spline of degree one.
+        Space::Lagrange(_) => [1; 2],
+    }
+}
+
+fn names(sides: &[Part]) -> String {
     if sides.is_empty() {
         return "none".to_owned();
     }
@@ -137,11 +150,6 @@ fn extent(points: &[[f64; 2]]) -> String {
         })
     };
     box_of(range(0), range(1))
-}
-
-fn extent_of(spline: &Spline<2>) -> String {
-    let [low, high] = spline.bounding_box();
-    box_of([low[0], high[0]], [low[1], high[1]])
 }
 
 fn box_of([left, right]: [f64; 2], [bottom, top]: [f64; 2]) -> String {

@@ -3,28 +3,33 @@
 use partita_fluid::FluidSolver;
 use partita_iga::Spline;
 use partita_mesh::vtu::Field;
-use partita_structure::StructureSolver;
+use partita_mesh::{Cells, SolidMesh};
+use partita_structure::{Space, StructureSolver};
 
 use crate::build::Run;
 use crate::output::fields::{Series, Snapshot, Tessellation};
 use crate::output::space::Estimate;
 use crate::output::{OutputError, RunWriter};
 
-/// Draws both fields; the lines of the structure's drawing are cut once.
+/// Draws both fields; the lines of a patch are cut once, the cells of a mesh are drawn as they are.
 #[derive(Debug)]
 pub(crate) struct Drawing {
-    structure: Option<Tessellation>,
+    patch: Option<Tessellation>,
 }
 
 impl Drawing {
     /// A drawing of `run` with each spline element cut into `subdivisions` parts along each side.
     #[must_use]
     pub(crate) fn new(run: &Run, subdivisions: usize) -> Self {
-        let tessellate = |structure: &StructureSolver<2>| {
-            let breakpoints = [0, 1].map(|parameter| breakpoints(structure.spline(), parameter));
+        let patch = run.second().field().and_then(|structure| match structure.space() {
+            Space::Patch(spline) => Some(spline),
+            Space::Lagrange(_) => None,
+        });
+        let tessellate = |spline: &Spline<2>| {
+            let breakpoints = [0, 1].map(|parameter| breakpoints(spline, parameter));
             Tessellation::new([&breakpoints[0], &breakpoints[1]], subdivisions)
         };
-        Self { structure: run.second().field().map(tessellate) }
+        Self { patch: patch.map(tessellate) }
     }
 
     /// Adds `files` drawings of `run` to what it will write.
@@ -36,9 +41,12 @@ impl Drawing {
             let mesh = fluid.mesh();
             estimate = estimate.with_fields(files, mesh.points().len(), numbers, mesh.cells().len());
         }
-        if let Some(tessellation) = &self.structure {
+        if let Some(structure) = run.second().field() {
+            let (points, cells) = match (structure.space(), &self.patch) {
+                (Space::Lagrange(mesh), _) => (mesh.points().len(), mesh.cells().len()),
+                (_, patch) => patch.as_ref().map_or((0, 0), |t| (t.parameters().len(), t.cells().len())),
+            };
             // Points, displacement and velocity.
-            let (points, cells) = (tessellation.parameters().len(), tessellation.cells().len());
             estimate = estimate.with_fields(files, points, 6, cells);
         }
         estimate
@@ -58,8 +66,14 @@ impl Drawing {
         if let Some(fluid) = run.first().field() {
             write_fluid(fluid, writer, step, time)?;
         }
-        if let (Some(structure), Some(tessellation)) = (run.second().field(), &self.structure) {
-            write_structure(structure, tessellation, writer, step, time)?;
+        if let Some(structure) = run.second().field() {
+            match (structure.space(), &self.patch) {
+                (Space::Patch(spline), Some(tessellation)) => {
+                    write_patch(structure, spline, tessellation, writer, step, time)?;
+                }
+                (Space::Patch(_), None) => unreachable!("a patch is cut when the drawing is made"),
+                (Space::Lagrange(mesh), _) => write_solid(structure, mesh, writer, step, time)?,
+            }
         }
         Ok(())
     }
@@ -89,8 +103,9 @@ fn write_fluid(
     writer.fields(Series::Fluid, step, time, &snapshot)
 }
 
-fn write_structure(
+fn write_patch(
     structure: &StructureSolver<2>,
+    spline: &Spline<2>,
     tessellation: &Tessellation,
     writer: &mut RunWriter,
     step: usize,
@@ -98,18 +113,43 @@ fn write_structure(
 ) -> Result<(), OutputError> {
     let (mut points, mut displacement, mut velocity) = (Vec::new(), Vec::new(), Vec::new());
     for xi in tessellation.parameters() {
-        let (x, d, v) =
-            (structure.spline().point(xi), structure.displacement_at(xi), structure.velocity_at(xi));
-        points.push([x[0] + d[0], x[1] + d[1]]);
-        displacement.extend(d);
-        velocity.extend(v);
+        points.push(spline.point(xi));
+        displacement.extend(structure.displacement_at(xi));
+        velocity.extend(structure.velocity_at(xi));
+    }
+    write_deformed(tessellation.cells(), points, &displacement, &velocity, writer, step, time)
+}
+
+fn write_solid(
+    structure: &StructureSolver<2>,
+    mesh: &SolidMesh<2>,
+    writer: &mut RunWriter,
+    step: usize,
+    time: f64,
+) -> Result<(), OutputError> {
+    let state = structure.state();
+    let [displacement, velocity] = [&state.displacement, &state.velocity];
+    write_deformed(mesh.cells(), mesh.points().to_vec(), displacement, velocity, writer, step, time)
+}
+
+/// Writes a structure whose undeformed points are `points`.
+fn write_deformed(
+    cells: &Cells,
+    mut points: Vec<[f64; 2]>,
+    displacement: &[f64],
+    velocity: &[f64],
+    writer: &mut RunWriter,
+    step: usize,
+    time: f64,
+) -> Result<(), OutputError> {
+    for (x, d) in points.as_flattened_mut().iter_mut().zip(displacement) {
+        *x += d;
     }
     let point_data = [
-        Field { name: "displacement [m]", components: 2, values: &displacement },
-        Field { name: "velocity [m/s]", components: 2, values: &velocity },
+        Field { name: "displacement [m]", components: 2, values: displacement },
+        Field { name: "velocity [m/s]", components: 2, values: velocity },
     ];
-    let snapshot =
-        Snapshot { points: &points, cells: tessellation.cells(), point_data: &point_data, cell_data: &[] };
+    let snapshot = Snapshot { points: &points, cells, point_data: &point_data, cell_data: &[] };
     writer.fields(Series::Structure, step, time, &snapshot)
 }
 

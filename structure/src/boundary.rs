@@ -1,7 +1,5 @@
 //! Parts of the boundary: how supports and the interface are named.
 
-use std::ops::Deref;
-
 use partita_iga::Side;
 
 /// Parts of the boundary of a structure, named as its space names them.
@@ -33,18 +31,6 @@ impl Boundary {
         match self {
             Self::Sides(sides) => sides.is_empty(),
             Self::Groups(groups) => groups.is_empty(),
-        }
-    }
-}
-
-/// The sides, none for groups of a mesh: a model of a patch can be read as one.
-impl Deref for Boundary {
-    type Target = [Side];
-
-    fn deref(&self) -> &[Side] {
-        match self {
-            Self::Sides(sides) => sides,
-            Self::Groups(_) => &[],
         }
     }
 }

@@ -34,8 +34,8 @@ impl<const D: usize> StructureSolver<D> {
         tolerance: f64,
     ) -> Result<Vec<InterfaceRow>, StructureError> {
         match (&self.space, &self.model.wetted) {
-            (Space::Patch(patch), wetted) => {
-                let rows = partita_iga::transfer::rows(patch, wetted, points, tolerance)?;
+            (Space::Patch(patch), Boundary::Sides(sides)) => {
+                let rows = partita_iga::transfer::rows(patch, sides, points, tolerance)?;
                 let row = |row: partita_iga::transfer::Row| InterfaceRow {
                     nodes: row.control_points,
                     weights: row.weights,
@@ -52,7 +52,10 @@ impl<const D: usize> StructureSolver<D> {
                 };
                 Ok(rows.into_iter().map(row).collect())
             }
-            // The solver was built, so that there are no sides in the list.
+            // The solver was built, so that a list of the other kind is empty.
+            (Space::Patch(_), Boundary::Groups(_)) => {
+                Err(partita_iga::transfer::TransferError::NoSides.into())
+            }
             (Space::Lagrange(_), Boundary::Sides(_)) => Err(solid::transfer::TransferError::NoGroups.into()),
         }
     }

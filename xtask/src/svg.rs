@@ -35,10 +35,7 @@ impl Svg {
     /// neighbours.
     pub(crate) fn polygon(&mut self, points: &[[f64; 2]], fill: Colour) {
         let fill = fill.hex();
-        self.line(&format!(
-            r#"<polygon points="{}" fill="{fill}" stroke="{fill}"/>"#,
-            joined(points)
-        ));
+        self.line(&format!(r#"<polygon points="{}" fill="{fill}" stroke="{fill}"/>"#, joined(points)));
     }
 
     /// The edges of a polygon.

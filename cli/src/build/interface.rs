@@ -2,7 +2,6 @@
 
 use partita_coupling::{MatrixTransfer, Transfer};
 use partita_fluid::FluidSolver;
-use partita_iga::transfer;
 use partita_structure::StructureSolver;
 use sprs::TriMat;
 
@@ -10,8 +9,8 @@ use super::BuildError;
 
 /// The transfer `d_f = H x`, `F = H^T f`, with the rows `R_a(xi_i)` of the fluid's interface nodes.
 ///
-/// Columns of clamped control points are left out: their displacement is zero, and what the fluid puts on them goes
-/// into the clamp. A node that lies on clamped control points alone has an empty row.
+/// Columns of clamped nodes are left out: their displacement is zero, and what the fluid puts on them goes
+/// into the clamp. A fluid node that lies on clamped ones alone has an empty row.
 ///
 /// # Errors
 /// When a fluid node lies farther from the wetted sides than `tolerance` times the interface's extent.
@@ -22,12 +21,11 @@ pub(super) fn transfer(
 ) -> Result<Box<dyn Transfer>, BuildError> {
     let points: Vec<[f64; 2]> =
         fluid.interface_nodes().iter().map(|&node| fluid.mesh().points()[node]).collect();
-    let rows =
-        transfer::rows(structure.spline(), &structure.model().wetted, &points, tolerance * extent(&points))?;
+    let rows = structure.interface_rows(&points, tolerance * extent(&points))?;
     let mut weights = TriMat::new((points.len(), structure.interface_points().len()));
     for (row, entries) in rows.iter().enumerate() {
-        for (control_point, &weight) in entries.control_points.iter().zip(&entries.weights) {
-            if let Ok(column) = structure.interface_points().binary_search(control_point) {
+        for (node, &weight) in entries.nodes.iter().zip(&entries.weights) {
+            if let Ok(column) = structure.interface_points().binary_search(node) {
                 weights.add_triplet(row, column, weight);
             }
         }

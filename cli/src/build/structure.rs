@@ -1,28 +1,28 @@
 //! The scene's structure in the words of the structure crate.
 
-use partita_iga::{Side, Spline};
+use partita_iga::Side;
 use partita_structure::{
-    BodyForce, Law, Material, Plane, Rayleigh, Space, StructureModel, StructureSettings, StructureSolver,
-    TimeScheme,
+    BodyForce, Boundary, Law, Material, Plane, Rayleigh, Space, StructureModel, StructureSettings,
+    StructureSolver, TimeScheme,
 };
 
 use super::{BuildError, newton};
 use crate::scene::schema;
 
-/// The solver of a scene's structure on `patch`, at rest.
+/// The solver of a scene's structure in `space`, at rest.
 ///
 /// # Errors
 /// When geometry, material and settings do not fit together.
 pub(super) fn solver(
     structure: &schema::Structure,
-    patch: Spline<2>,
+    space: Space<2>,
 ) -> Result<StructureSolver<2>, BuildError> {
     let model = StructureModel {
         density: structure.density.get(),
         material: material(&structure.material)?,
         body_force: body_force(&structure.body_force),
-        clamped: structure.clamped.iter().copied().map(side).collect(),
-        wetted: structure.wetted.iter().copied().map(side).collect(),
+        clamped: boundary(&space, &structure.clamped),
+        wetted: boundary(&space, &structure.wetted),
     };
     let settings = StructureSettings {
         time: match structure.time_scheme {
@@ -40,7 +40,7 @@ pub(super) fn solver(
             .map(|damping| Rayleigh { mass: damping.mass.get(), stiffness: damping.stiffness.get() }),
         line_search: None,
     };
-    Ok(StructureSolver::new(Space::Patch(patch), model, settings)?)
+    Ok(StructureSolver::new(space, model, settings)?)
 }
 
 fn material(material: &schema::Material) -> Result<Material, BuildError> {
@@ -65,12 +65,15 @@ fn body_force(formula: &schema::VectorFormula) -> BodyForce<2> {
     BodyForce::in_time(move |time| field(&[0.0; 2], time))
 }
 
-/// A side by the name a scene has for it.
-pub(crate) fn side(side: schema::Side) -> Side {
-    match side {
-        schema::Side::Left => Side::LEFT,
-        schema::Side::Right => Side::RIGHT,
-        schema::Side::Bottom => Side::BOTTOM,
-        schema::Side::Top => Side::TOP,
+/// Parts of the boundary of a space by the names a scene has for them.
+pub(crate) fn boundary(space: &Space<2>, parts: &[schema::Part]) -> Boundary {
+    match space {
+        Space::Patch(_) => parts.iter().filter_map(|part| side(part.name())).collect(),
+        Space::Lagrange(_) => parts.iter().map(|part| part.name().to_owned()).collect(),
     }
+}
+
+/// A side of a patch by its name; a scene that names another one has been refused.
+fn side(name: &str) -> Option<Side> {
+    [Side::LEFT, Side::RIGHT, Side::BOTTOM, Side::TOP].into_iter().find(|side| side.to_string() == name)
 }

@@ -35,7 +35,7 @@ pub use numbers::{
     SpectralRadius,
 };
 pub use output::{Output, Probe};
-pub use structure::{Elastic, Material, Plane, RayleighDamping, Side, Structure, StructureTimeScheme};
+pub use structure::{Elastic, Material, Part, Plane, RayleighDamping, Structure, StructureTimeScheme};
 
 /// A whole scene: a fluid, a structure, or both coupled.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,4 +1,4 @@
-//! What a scene is made of in space: the fluid's mesh and the structure's patch, made or read once.
+//! What a scene is made of in space: the fluid's mesh and the structure's patch or mesh, made or read once.
 
 mod fluid;
 mod read;
@@ -6,21 +6,21 @@ mod structure;
 
 use std::path::Path;
 
-use partita_iga::Spline;
 use partita_mesh::Mesh;
+use partita_structure::Space;
 
 use super::schema::{FileName, FluidMesh, Geometry, Scene};
 use super::validate::Check;
 
 pub(crate) use read::Input;
 
-/// The fluid's mesh and the structure's patch, as far as the scene has them.
+/// The fluid's mesh and the structure's patch or mesh, as far as the scene has them.
 #[derive(Debug, Clone, Default)]
 pub struct Shapes {
     /// The fluid's mesh before it moves.
     pub fluid: Option<Mesh<2>>,
     /// The structure before it deforms.
-    pub structure: Option<Spline<2>>,
+    pub structure: Option<Space<2>>,
     /// The files that were read for them.
     pub(crate) inputs: Vec<Input>,
 }
@@ -33,7 +33,7 @@ impl Shapes {
             shapes.fluid = fluid::mesh(&scene.mesh, folder, &mut shapes.inputs, check);
         }
         if let Some(scene) = &scene.structure {
-            shapes.structure = structure::patch(&scene.geometry, folder, &mut shapes.inputs, check);
+            shapes.structure = structure::space(&scene.geometry, folder, &mut shapes.inputs, check);
         }
         shapes
     }
@@ -44,9 +44,11 @@ pub(crate) const INPUT_FOLDER: &str = "input";
 /// The fluid's mesh in that folder.
 const FLUID_FILE: &str = "fluid.msh";
 /// The structure's patch in that folder.
-const STRUCTURE_FILE: &str = "structure.toml";
+const PATCH_FILE: &str = "structure.toml";
+/// The structure's mesh in that folder.
+const SOLID_FILE: &str = "structure.msh";
 /// All files that may be in it.
-pub(crate) const INPUT_FILES: [&str; 2] = [FLUID_FILE, STRUCTURE_FILE];
+pub(crate) const INPUT_FILES: [&str; 3] = [FLUID_FILE, PATCH_FILE, SOLID_FILE];
 
 /// Lets `scene` name the copies of its files that a run keeps.
 pub(super) fn name_copies(scene: &mut Scene) {
@@ -54,8 +56,9 @@ pub(super) fn name_copies(scene: &mut Scene) {
     if let Some(FluidMesh::Gmsh(mesh)) = scene.fluid.as_mut().map(|fluid| &mut fluid.mesh) {
         mesh.file = copy(FLUID_FILE);
     }
-    if let Some(Geometry::Spline(spline)) = scene.structure.as_mut().map(|structure| &mut structure.geometry)
-    {
-        spline.file = copy(STRUCTURE_FILE);
+    match scene.structure.as_mut().map(|structure| &mut structure.geometry) {
+        Some(Geometry::Spline(spline)) => spline.file = copy(PATCH_FILE),
+        Some(Geometry::Gmsh(mesh)) => mesh.file = copy(SOLID_FILE),
+        _ => {}
     }
 }

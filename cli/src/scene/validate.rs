@@ -9,6 +9,8 @@ mod structure;
 
 use std::ops::Range;
 
+use partita_structure::Space;
+
 use super::document::Document;
 use super::finding::Finding;
 use super::schema::Scene;
@@ -29,6 +31,10 @@ pub(super) fn validate(check: &mut Check<'_>, scene: &Scene) {
 pub(super) fn validate_shapes(check: &mut Check<'_>, scene: &Scene, shapes: &Shapes) {
     if let (Some(fluid), Some(mesh)) = (&scene.fluid, &shapes.fluid) {
         mesh::check(check, scene, fluid, mesh);
+    }
+    if let (Some(structure), Some(Space::Lagrange(mesh))) = (&scene.structure, &shapes.structure) {
+        let names: Vec<&str> = mesh.groups().iter().map(|group| group.name.as_str()).collect();
+        structure::known_parts(check, structure, "mesh", &names);
     }
     interface::check(check, scene, shapes);
 }

@@ -98,7 +98,7 @@ pub enum FluidMesh {
     Gmsh(GmshMesh),
 }
 
-/// `[fluid.mesh.gmsh]`.
+/// `[fluid.mesh.gmsh]` and `[structure.geometry.gmsh]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GmshMesh {

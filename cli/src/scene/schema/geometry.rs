@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::file::FileName;
-use super::fluid::origin;
+use super::fluid::{GmshMesh, origin};
 use super::numbers::{Count, Positive, Real};
 
 /// `[structure.geometry.*]`.
@@ -19,6 +19,21 @@ pub enum Geometry {
     Curve(CurvePatch),
     /// A patch from a spline file (see the README of `partita-iga`).
     Spline(SplineFile),
+    /// Triangles or quadrilaterals of first or second order from a file of gmsh, instead of a spline; its physical curves are
+    /// the groups that `clamped` and `wetted` name.
+    Gmsh(GmshMesh),
+}
+
+impl Geometry {
+    /// Names that every patch has for its sides; none for a mesh, whose file names its groups.
+    pub(in crate::scene) fn sides(&self) -> Option<[&'static str; 4]> {
+        match self {
+            Self::Rectangle(_) | Self::Arc(_) | Self::Curve(_) | Self::Spline(_) => {
+                Some(["left", "right", "bottom", "top"])
+            }
+            Self::Gmsh(_) => None,
+        }
+    }
 }
 
 /// `[structure.geometry.rectangle]`.

@@ -10,7 +10,7 @@ use super::geometry::Geometry;
 use super::newton::Newton;
 use super::numbers::{NonNegative, PoissonRatio, Positive, SpectralRadius};
 
-/// `[structure]`: a solid on a spline patch.
+/// `[structure]`: a solid on a spline patch or a mesh.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Structure {
@@ -19,12 +19,12 @@ pub struct Structure {
     /// Force per volume \[N/m3\], numbers or expressions of `t`. Default: none.
     #[serde(default)]
     pub body_force: VectorFormula,
-    /// Sides that do not move. Default: none.
+    /// Sides of the patch, or groups of the mesh, that do not move. Default: none.
     #[serde(default)]
-    pub clamped: Vec<Side>,
-    /// Sides that touch the fluid. Default: none.
+    pub clamped: Vec<Part>,
+    /// Sides of the patch, or groups of the mesh, that touch the fluid. Default: none.
     #[serde(default)]
-    pub wetted: Vec<Side>,
+    pub wetted: Vec<Part>,
     /// Where the structure is.
     pub geometry: Geometry,
     /// What it is made of.
@@ -40,28 +40,23 @@ pub struct Structure {
     pub newton: Newton,
 }
 
-/// A side of a patch with two parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Side {
-    /// Start of the first parameter.
-    Left,
-    /// End of the first parameter.
-    Right,
-    /// Start of the second parameter.
-    Bottom,
-    /// End of the second parameter.
-    Top,
+/// A part of the structure's boundary: a side of a patch (`left`, `right`, `bottom`, `top`: the start and the end of its
+/// first and of its second parameter), or a group of a mesh.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct Part(String);
+
+impl Part {
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.0
+    }
 }
 
-impl fmt::Display for Side {
+impl fmt::Display for Part {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Left => "left",
-            Self::Right => "right",
-            Self::Bottom => "bottom",
-            Self::Top => "top",
-        })
+        f.write_str(&self.0)
     }
 }
 

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use partita_mesh::Mesh;
 use partita_mesh::generate::{self, Diagonal};
-use partita_mesh::gmsh::GmshFile;
 
 use super::FLUID_FILE;
 use super::read::{self, Input};
@@ -42,12 +41,7 @@ fn rectangle(mesh: &RectangleMesh) -> Result<Mesh<2>, Finding> {
 }
 
 fn from_file(mesh: &GmshMesh, folder: &Path, inputs: &mut Vec<Input>) -> Result<Mesh<2>, Finding> {
-    let bytes = read::bytes(&mesh.file, folder)?;
-    let mut file =
-        GmshFile::parse(&bytes).map_err(|error| Finding::of(&format!("{}, {error}", mesh.file)))?;
-    for x in file.points.as_flattened_mut() {
-        *x *= mesh.scale.get();
-    }
+    let (file, bytes) = read::gmsh(mesh, folder)?;
     let made = file.into_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
     inputs.push(Input { name: FLUID_FILE, bytes });
     Ok(made)

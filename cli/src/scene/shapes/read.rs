@@ -3,8 +3,10 @@
 use std::fs;
 use std::path::Path;
 
+use partita_mesh::gmsh::GmshFile;
+
 use crate::scene::finding::Finding;
-use crate::scene::schema::FileName;
+use crate::scene::schema::{FileName, GmshMesh};
 
 /// A file that was read for a scene; its run keeps a copy.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,6 +19,17 @@ pub(crate) struct Input {
 
 /// Largest file that is read: a mesh beyond it would not fit any machine the program is written for.
 const MOST_BYTES: u64 = 4 << 30;
+
+/// A file of gmsh with its coordinates in metres, and its bytes.
+pub(super) fn gmsh(mesh: &GmshMesh, folder: &Path) -> Result<(GmshFile, Vec<u8>), Finding> {
+    let bytes = bytes(&mesh.file, folder)?;
+    let mut file =
+        GmshFile::parse(&bytes).map_err(|error| Finding::of(&format!("{}, {error}", mesh.file)))?;
+    for x in file.points.as_flattened_mut() {
+        *x *= mesh.scale.get();
+    }
+    Ok((file, bytes))
+}
 
 /// All bytes of a file that a scene in `folder` names.
 pub(super) fn bytes(file: &FileName, folder: &Path) -> Result<Vec<u8>, Finding> {

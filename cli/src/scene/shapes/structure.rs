@@ -1,36 +1,50 @@
-//! The structure's patch.
+//! The structure's patch or mesh.
 
 use std::path::Path;
 
 use partita_iga::{Spline, build, file, fit, orientation};
+use partita_structure::Space;
 
-use super::STRUCTURE_FILE;
 use super::read::{self, Input};
+use super::{PATCH_FILE, SOLID_FILE};
 use crate::scene::finding::Finding;
 use crate::scene::schema::{
-    Alignment, ArcPatch, Count, CurvePatch, Degree, Geometry, Positive, Real, RectanglePatch, SplineFile,
+    Alignment, ArcPatch, Count, CurvePatch, Degree, Geometry, GmshMesh, Positive, Real, RectanglePatch,
+    SplineFile,
 };
 use crate::scene::validate::Check;
 
-/// The patch, or what is wrong with it.
-pub(super) fn patch(
+/// The space, or what is wrong with it.
+pub(super) fn space(
     geometry: &Geometry,
     folder: &Path,
     inputs: &mut Vec<Input>,
     check: &mut Check<'_>,
-) -> Option<Spline<2>> {
+) -> Option<Space<2>> {
     let (made, place) = match geometry {
-        Geometry::Rectangle(patch) => (rectangle(patch), ["rectangle", ""]),
-        Geometry::Arc(patch) => (arc(patch), ["arc", ""]),
-        Geometry::Curve(patch) => (strip(patch), ["curve", ""]),
-        Geometry::Spline(spline) => (from_file(spline, folder, inputs), ["spline", "file"]),
+        Geometry::Rectangle(patch) => (rectangle(patch).and_then(sound), ["rectangle", ""]),
+        Geometry::Arc(patch) => (arc(patch).and_then(sound), ["arc", ""]),
+        Geometry::Curve(patch) => (strip(patch).and_then(sound), ["curve", ""]),
+        Geometry::Spline(spline) => (from_file(spline, folder, inputs).and_then(sound), ["spline", "file"]),
+        Geometry::Gmsh(mesh) => (solid(mesh, folder, inputs), ["gmsh", "file"]),
     };
     let place = ["structure", "geometry", place[0], place[1]];
-    let checked = made.and_then(|patch| match orientation::check(&patch) {
-        Ok(_) => Ok(patch),
+    let shape = if matches!(geometry, Geometry::Gmsh(_)) { "this mesh" } else { "this patch" };
+    made.map_err(|finding| check.add(finding.mark_if(check.value(&place), shape))).ok()
+}
+
+fn sound(patch: Spline<2>) -> Result<Space<2>, Finding> {
+    match orientation::check(&patch) {
+        Ok(_) => Ok(Space::Patch(patch)),
         Err(error) => Err(Finding::of(&error)),
-    });
-    checked.map_err(|finding| check.add(finding.mark_if(check.value(&place), "this patch"))).ok()
+    }
+}
+
+fn solid(mesh: &GmshMesh, folder: &Path, inputs: &mut Vec<Input>) -> Result<Space<2>, Finding> {
+    let (file, bytes) = read::gmsh(mesh, folder)?;
+    let made = file.into_solid_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
+    inputs.push(Input { name: SOLID_FILE, bytes });
+    Ok(Space::Lagrange(made))
 }
 
 fn rectangle(patch: &RectanglePatch) -> Result<Spline<2>, Finding> {
@@ -82,6 +96,6 @@ fn from_file(spline: &SplineFile, folder: &Path, inputs: &mut Vec<Input>) -> Res
         return Err(Finding::new(format!("{} holds a curve, not a patch", spline.file))
             .hint("a plane structure is a spline of two parameters: give two degrees and two knot vectors"));
     }
-    inputs.push(Input { name: STRUCTURE_FILE, bytes });
+    inputs.push(Input { name: PATCH_FILE, bytes });
     Ok(patch)
 }

@@ -1,15 +1,17 @@
 //! Whether fluid and structure meet: the same place, the same unit, the same corners.
 
-use partita_iga::Spline;
-use partita_iga::project::Projector;
+mod wetted;
+
 use partita_mesh::mesh::facet_nodes;
 use partita_mesh::{Mesh, Place};
+use partita_structure::Space;
 
 use super::Check;
 use crate::build;
 use crate::scene::finding::Finding;
-use crate::scene::schema::{Condition, Coupling, Fluid, Scene, Side, Structure};
+use crate::scene::schema::{Condition, Coupling, Fluid, Scene, Structure};
 use crate::scene::shapes::Shapes;
+use wetted::Wetted;
 
 /// The interface of both fields.
 pub(super) fn check(check: &mut Check<'_>, scene: &Scene, shapes: &Shapes) {
@@ -17,8 +19,8 @@ pub(super) fn check(check: &mut Check<'_>, scene: &Scene, shapes: &Shapes) {
     else {
         return;
     };
-    let (Some(mesh), Some(patch)) = (&shapes.fluid, &shapes.structure) else { return };
-    let Some(meeting) = Meeting::new(fluid, structure, coupling, mesh, patch) else { return };
+    let (Some(mesh), Some(space)) = (&shapes.fluid, &shapes.structure) else { return };
+    let Some(meeting) = Meeting::new(fluid, structure, coupling, mesh, space) else { return };
     if let Some(finding) = meeting.other_unit(check).or_else(|| meeting.apart(check)) {
         check.add(finding);
     } else if let Some(finding) = meeting.corner_without_node(check) {
@@ -26,12 +28,12 @@ pub(super) fn check(check: &mut Check<'_>, scene: &Scene, shapes: &Shapes) {
     }
 }
 
-/// Nodes of the fluid's interface and the sides that they should lie on.
+/// Nodes of the fluid's interface and the parts of the structure that they should lie on.
 struct Meeting<'a> {
     /// A group that is the interface.
     group: &'a str,
     nodes: Vec<[f64; 2]>,
-    sides: Vec<(Side, Spline<2>)>,
+    wetted: Wetted,
     /// Largest distance between them \[m\].
     tolerance: f64,
 }
@@ -50,26 +52,25 @@ impl<'a> Meeting<'a> {
         structure: &Structure,
         coupling: &Coupling,
         mesh: &Mesh<2>,
-        patch: &Spline<2>,
+        space: &Space<2>,
     ) -> Option<Self> {
         let interface = || fluid.boundary.iter().filter(|(_, condition)| **condition == Condition::Interface);
         let groups = interface().filter_map(|(name, _)| mesh.group(name));
         let facets: Vec<_> = groups.flat_map(|group| &group.facets).copied().collect();
         let nodes: Vec<_> = facet_nodes(&facets).into_iter().map(|node| mesh.points()[node]).collect();
-        let sides =
-            structure.wetted.iter().map(|&side| (side, patch.side(build::side(side)).0)).collect::<Vec<_>>();
         let (group, _) = interface().next()?;
-        if nodes.is_empty() || sides.is_empty() {
+        let parts = build::boundary(space, &structure.wetted);
+        if nodes.is_empty() || parts.is_empty() {
             return None;
         }
         let tolerance = coupling.projection_tolerance.get() * diagonal(&nodes);
-        Some(Self { group, nodes, sides, tolerance })
+        let wetted = Wetted::new(space, &parts, &nodes)?;
+        Some(Self { group, nodes, wetted, tolerance })
     }
 
     /// Both have the same shape, but one is as many times larger as one unit of length is than another.
     fn other_unit(&self, check: &Check<'_>) -> Option<Finding> {
-        let ends: Vec<[f64; 2]> = self.sides.iter().flat_map(|(_, side)| side.bounding_box()).collect();
-        let (fluid, structure) = (diagonal(&self.nodes), diagonal(&ends));
+        let (fluid, structure) = (diagonal(&self.nodes), diagonal(&self.wetted.places));
         let ratio = (fluid / structure).max(structure / fluid);
         let (_, small, large) = UNITS.into_iter().find(|(factor, ..)| (ratio / factor - 1.0).abs() < 0.1)?;
         let (coarse, fine) = if fluid > structure { ("fluid", "structure") } else { ("structure", "fluid") };
@@ -89,61 +90,46 @@ impl<'a> Meeting<'a> {
         )
     }
 
-    /// Nodes off the sides: their load would have no place to go.
+    /// Nodes off the parts: their load would have no place to go.
     fn apart(&self, check: &Check<'_>) -> Option<Finding> {
-        let mut projectors: Vec<_> =
-            self.sides.iter().map(|(side, spline)| (*side, Projector::new(spline))).collect();
-        let mut off = 0;
-        let mut worst: Option<([f64; 2], Side, f64)> = None;
-        for node in &self.nodes {
-            let nearest = projectors
-                .iter_mut()
-                .map(|(side, projector)| (*side, projector.closest_point(node).distance));
-            let (side, distance) = nearest.min_by(|a, b| a.1.total_cmp(&b.1))?;
-            off += usize::from(distance > self.tolerance);
-            if worst.is_none_or(|(.., most)| distance > most) {
-                worst = Some((*node, side, distance));
-            }
-        }
-        let (node, side, distance) = worst?;
+        let off = self.wetted.gaps.iter().filter(|(_, distance)| *distance > self.tolerance).count();
+        let gaps = self.nodes.iter().zip(&self.wetted.gaps);
+        let (node, (part, distance)) = gaps.max_by(|(_, (_, a)), (_, (_, b))| a.total_cmp(b))?;
         if off == 0 {
             return None;
         }
         Some(
             Finding::new(format!(
-                "{off} of {} interface nodes of the fluid lie off the structure, the farthest, {}, by {distance:.3e} m from side `{side}`",
+                "{off} of {} interface nodes of the fluid lie off the structure, the farthest, {}, by {distance:.3e} m from `{part}`",
                 self.nodes.len(),
-                Place::from(node),
+                Place::from(*node),
             ))
             .mark_if(check.value(&["fluid", "boundary", self.group]), "the fluid's side of it")
             .mark_if(check.value(&["structure", "wetted"]), "the structure's side of it")
             .hint(format!(
                 "loads and displacements pass between points that coincide (here within {:.1e} m): compare the two \
-                 boundaries in place and shape, name every wetted side, or raise `coupling.projection_tolerance`",
+                 boundaries in place and shape, name every wetted part, or raise `coupling.projection_tolerance`",
                 self.tolerance
             )),
         )
     }
 
-    /// Ends of wetted sides without a node there: the fluid would cut the corner.
+    /// Ends of wetted parts without a node there: the fluid would cut the corner.
     fn corner_without_node(&self, check: &Check<'_>) -> Option<Finding> {
-        let ends =
-            self.sides.iter().flat_map(|(side, spline)| [[0.0], [1.0]].map(|xi| (*side, spline.point(&xi))));
         let reach =
             |point: &[f64; 2]| self.nodes.iter().map(|node| distance(node, point)).fold(f64::MAX, f64::min);
-        let (side, corner, gap) = ends
-            .map(|(side, point)| (side, point, reach(&point)))
-            .find(|(_, _, gap)| *gap > self.tolerance)?;
+        let mut gaps = self.wetted.ends.iter().map(|(part, point)| (part, point, reach(point)));
+        let (part, corner, gap) = gaps.find(|(.., gap)| *gap > self.tolerance)?;
         Some(
             Finding::new(format!(
-                "side `{side}` of the structure ends at {}, where the fluid has no interface node; the nearest is {gap:.3e} m away",
-                Place::from(corner),
+                "`{part}` of the structure ends at {}, where the fluid has no interface node; the nearest is {gap:.3e} m away",
+                Place::from(*corner),
             ))
             .mark_if(check.value(&["structure", "wetted"]), "wetted up to its ends")
             .mark_if(check.value(&["fluid", "boundary", self.group]), "ends or bends elsewhere")
             .hint(
-                "the fluid's boundary and the wetted sides must begin, bend and end in the same points: put a point of \
-                 the .geo file there, or leave the side out of `wetted`",
+                "the fluid's boundary and the wetted parts must begin, bend and end in the same points: put a point of \
+                 the .geo file there, or leave the part out of `wetted`",
             ),
         )
     }

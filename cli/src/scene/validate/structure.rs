@@ -3,14 +3,18 @@
 use partita_numerics::time::GeneralizedAlpha;
 
 use super::Check;
+use crate::nearest::nearest;
 use crate::scene::finding::Finding;
-use crate::scene::schema::{Geometry, Side, Structure, StructureTimeScheme};
+use crate::scene::schema::{Geometry, Part, Structure, StructureTimeScheme};
 
 /// Control points of a patch; more would not fit any machine the program is written for.
 const MOST_POINTS: f64 = 1e8;
 
 pub(super) fn check(check: &mut Check<'_>, structure: &Structure, coupled: bool) {
     size(check, structure);
+    if let Some(sides) = structure.geometry.sides() {
+        known_parts(check, structure, "patch", &sides);
+    }
     twice(check, "clamped", &structure.clamped);
     twice(check, "wetted", &structure.wetted);
     if let Some(side) = structure.wetted.iter().find(|side| structure.clamped.contains(side)) {
@@ -50,7 +54,7 @@ fn size(check: &mut Check<'_>, structure: &Structure) {
         Geometry::Rectangle(patch) => ("rectangle", patch.elements, patch.degree),
         Geometry::Arc(patch) => ("arc", patch.elements, patch.degree),
         Geometry::Curve(patch) => ("curve", patch.elements, patch.degree),
-        Geometry::Spline(_) => return,
+        Geometry::Spline(_) | Geometry::Gmsh(_) => return,
     };
     let along = |c: usize| (elements[c].get() + degree[c].get()) as f64;
     let points = along(0) * along(1);
@@ -63,7 +67,23 @@ fn size(check: &mut Check<'_>, structure: &Structure) {
     }
 }
 
-fn twice(check: &mut Check<'_>, key: &str, sides: &[Side]) {
+/// Clamped and wetted parts against the names that the boundary has.
+pub(super) fn known_parts(check: &mut Check<'_>, structure: &Structure, what: &str, names: &[&str]) {
+    for (key, parts) in [("clamped", &structure.clamped), ("wetted", &structure.wetted)] {
+        for part in parts.iter().map(Part::name).filter(|part| !names.contains(part)) {
+            check.add(
+                Finding::new(format!("the {what} of the structure has no part `{part}`"))
+                    .mark_if(check.value(&["structure", key]), "unknown part")
+                    .hint(match nearest(part, names.iter().copied()) {
+                        Some(near) => format!("did you mean `{near}`?"),
+                        None => format!("parts of its boundary: {}", names.join(", ")),
+                    }),
+            );
+        }
+    }
+}
+
+fn twice(check: &mut Check<'_>, key: &str, sides: &[Part]) {
     if let Some(side) =
         sides.iter().enumerate().find_map(|(i, side)| sides[..i].contains(side).then_some(side))
     {

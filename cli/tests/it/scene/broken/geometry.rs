@@ -38,7 +38,7 @@ const FROM_FILE: &str = "[structure.geometry.spline]\nfile = \"patch.toml\"";
 fn a_patch_from_a_file_is_sound() {
     let folder = TempDir::new().expect("a folder");
     let resolved = read(&folder, FROM_FILE, PATCH).unwrap_or_else(|error| panic!("{}", render(&error)));
-    assert_eq!(resolved.shapes.structure.as_ref().expect("a patch").control_points().len(), 4);
+    assert_eq!(resolved.shapes.structure.as_ref().expect("a patch").node_count(), 4);
     assert!(resolved.to_toml().contains("file = \"input/structure.toml\""));
 }
 

@@ -1,9 +1,15 @@
 //! Values that a scene wants to see at every step.
 
+mod line;
+
 use std::collections::BTreeMap;
+
+use partita_fluid::FluidSolver;
+use partita_structure::StructureSolver;
 
 use crate::build::{Run, nearest_node};
 use crate::scene::schema::{self, Parameter, Real};
+use line::Samples;
 
 /// The probes of a scene, in the order of their columns.
 #[derive(Debug)]
@@ -12,11 +18,28 @@ pub(crate) struct Probes {
     columns: Vec<String>,
 }
 
+/// Where a probe looks.
 #[derive(Debug)]
 enum Place {
-    Structure([f64; 2]),
-    Force(String),
+    Structure(StructurePlace),
+    Fluid(FluidPlace),
+}
+
+#[derive(Debug)]
+enum StructurePlace {
+    Displacement([f64; 2]),
+    Energy,
+}
+
+#[derive(Debug)]
+enum FluidPlace {
+    Force(Vec<String>),
     Node(usize),
+    Line(Samples),
+    FlowRate(Vec<String>),
+    Energy,
+    VolumeDefect,
+    InterfaceWork,
 }
 
 impl Probes {
@@ -25,9 +48,8 @@ impl Probes {
     pub(crate) fn new(probes: &BTreeMap<String, schema::Probe>, run: &Run) -> Self {
         let mut columns = Vec::new();
         let places = probes.iter().map(|(name, probe)| {
-            let (place, quantities) = place(probe, run);
-            columns.extend(quantities.iter().map(|quantity| format!("{name}_{quantity}")));
-            place
+            columns.extend(quantities(probe).iter().map(|quantity| format!("{name}_{quantity}")));
+            place(probe, run)
         });
         Self { places: places.collect(), columns }
     }
@@ -41,34 +63,76 @@ impl Probes {
     /// The values now, one a column.
     #[must_use]
     pub(crate) fn values(&self, run: &Run) -> Vec<f64> {
-        self.places.iter().flat_map(|place| place.values(run)).collect()
+        const CHECKED: &str = "the scene's probes were checked against its fields";
+        let values = |place: &Place| match place {
+            Place::Structure(place) => place.values(run.second().field().expect(CHECKED)),
+            Place::Fluid(place) => place.values(run.first().field().expect(CHECKED)),
+        };
+        self.places.iter().flat_map(values).collect()
     }
 }
 
-/// Where a probe looks, and what its columns are called.
-///
-/// A value of the fluid is that of the mesh node nearest to the point.
-fn place(probe: &schema::Probe, run: &Run) -> (Place, &'static [&'static str]) {
+/// What the columns of a probe are called.
+fn quantities(probe: &schema::Probe) -> &'static [&'static str] {
+    use schema::Probe;
     match probe {
-        schema::Probe::StructureDisplacement(xi) => {
-            (Place::Structure(xi.map(Parameter::get)), &["displacement_x", "displacement_y"])
+        Probe::StructureDisplacement(_) => &["displacement_x", "displacement_y"],
+        Probe::StructureEnergy => &["kinetic_energy", "strain_energy"],
+        Probe::FluidForce(_) => &["force_x", "force_y"],
+        Probe::FluidValue(_) => &["velocity_x", "velocity_y", "pressure"],
+        Probe::FluidExtremes(_) => {
+            &["smallest_velocity_x", "largest_velocity_x", "smallest_velocity_y", "largest_velocity_y"]
         }
-        schema::Probe::FluidForce(group) => (Place::Force(group.clone()), &["force_x", "force_y"]),
-        schema::Probe::FluidValue(point) => {
-            let mesh = run.first().field().map(|fluid| nearest_node(fluid.mesh(), point.map(Real::get)));
-            (Place::Node(mesh.unwrap_or_default()), &["velocity_x", "velocity_y", "pressure"])
+        Probe::FluidFlowRate(_) => &["flow_rate"],
+        Probe::FluidEnergy => &["kinetic_energy"],
+        Probe::VolumeDefect => &["volume_defect"],
+        Probe::InterfaceWork => &["work"],
+    }
+}
+
+/// Where a probe looks. A value of the fluid is that of the mesh node nearest to the point.
+fn place(probe: &schema::Probe, run: &Run) -> Place {
+    use schema::Probe;
+    let mesh = || run.first().field().map(FluidSolver::mesh).expect("the scene was checked for its fluid");
+    Place::Fluid(match probe {
+        Probe::StructureDisplacement(xi) => {
+            return Place::Structure(StructurePlace::Displacement(xi.map(Parameter::get)));
+        }
+        Probe::StructureEnergy => return Place::Structure(StructurePlace::Energy),
+        Probe::FluidForce(groups) => FluidPlace::Force(groups.names().to_vec()),
+        Probe::FluidValue(point) => FluidPlace::Node(nearest_node(mesh(), point.map(Real::get))),
+        Probe::FluidExtremes(line) => {
+            FluidPlace::Line(Samples::new(mesh(), line.from.map(Real::get), line.to.map(Real::get)))
+        }
+        Probe::FluidFlowRate(groups) => FluidPlace::FlowRate(groups.names().to_vec()),
+        Probe::FluidEnergy => FluidPlace::Energy,
+        Probe::VolumeDefect => FluidPlace::VolumeDefect,
+        Probe::InterfaceWork => FluidPlace::InterfaceWork,
+    })
+}
+
+impl StructurePlace {
+    fn values(&self, structure: &StructureSolver<2>) -> Vec<f64> {
+        match self {
+            Self::Displacement(xi) => structure.displacement_at(xi).to_vec(),
+            Self::Energy => vec![structure.kinetic_energy(), structure.strain_energy()],
         }
     }
 }
 
-impl Place {
-    fn values(&self, run: &Run) -> Vec<f64> {
-        let (fluid, structure) = (run.first().field(), run.second().field());
+impl FluidPlace {
+    fn values(&self, fluid: &FluidSolver<2>) -> Vec<f64> {
+        const CHECKED: &str = "the scene's probes were checked against the groups of the mesh";
         match self {
-            Self::Structure(xi) => structure.map(|structure| structure.displacement_at(xi).to_vec()),
-            Self::Force(group) => fluid.and_then(|fluid| fluid.force_on(group)).map(|force| force.to_vec()),
-            Self::Node(node) => fluid.map(|fluid| fluid.values()[3 * node..3 * node + 3].to_vec()),
+            Self::Force(groups) => fluid.force_on_all(groups).expect(CHECKED).to_vec(),
+            Self::Node(node) => fluid.values()[3 * node..3 * node + 3].to_vec(),
+            Self::Line(samples) => samples.extremes(fluid.values()).as_flattened().to_vec(),
+            Self::FlowRate(groups) => {
+                vec![groups.iter().map(|group| fluid.flow_rate(group).expect(CHECKED)).sum()]
+            }
+            Self::Energy => vec![fluid.kinetic_energy()],
+            Self::VolumeDefect => vec![fluid.volume_defect()],
+            Self::InterfaceWork => vec![fluid.interface_work()],
         }
-        .expect("the scene's probes were checked against its fields and groups")
     }
 }

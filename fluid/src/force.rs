@@ -32,8 +32,21 @@ impl<const D: usize> FluidSolver<D> {
     /// for a name that is no group; zero where the group holds no velocity.
     #[must_use]
     pub fn force_on(&self, group: &str) -> Option<[f64; D]> {
+        self.force_on_all(&[group])
+    }
+
+    /// The same for several groups together. A node that they share counts once, so this is less than the sum over the
+    /// groups where they meet.
+    #[must_use]
+    pub fn force_on_all(&self, groups: &[impl AsRef<str>]) -> Option<[f64; D]> {
+        let mut nodes = Vec::new();
+        for group in groups {
+            nodes.extend(self.mesh.group_nodes(group.as_ref())?);
+        }
+        nodes.sort_unstable();
+        nodes.dedup();
         let mut sum = [0.0; D];
-        for node in self.mesh.group_nodes(group)? {
+        for node in nodes {
             let force = self.force_at(node);
             for i in 0..D {
                 sum[i] += force[i];
@@ -42,7 +55,7 @@ impl<const D: usize> FluidSolver<D> {
         Some(sum)
     }
 
-    fn force_at(&self, node: usize) -> [f64; D] {
+    pub(crate) fn force_at(&self, node: usize) -> [f64; D] {
         std::array::from_fn(|c| -self.assembly.residual[node * (D + 1) + c])
     }
 }

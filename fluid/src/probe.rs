@@ -80,6 +80,28 @@ impl<const D: usize> FluidSolver<D> {
         rate - boundary.iter().map(|facet| self.flux(facet, velocity, D)).sum::<f64>()
     }
 
+    /// Work that the fluid does on its interface in the step in progress, or after [`commit`](Self::commit) did in the
+    /// accepted one `[J/m in 2D, J in 3D]`:
+    ///
+    /// ```text
+    /// sum over the interface nodes of f_{n+1} . (d_{n+1} - d_n)
+    /// ```
+    ///
+    /// with the consistent forces f of [`output`](Self::output). What the structure receives differs by the load
+    /// that its time scheme takes within the step.
+    #[must_use]
+    pub fn interface_work(&self) -> f64 {
+        let (now, before) = match self.trial.step {
+            Some(_) => (&self.trial.displacement, &self.committed.displacement),
+            None => (&self.committed.displacement, &self.committed.previous_displacement),
+        };
+        let work = |&node: &usize| -> f64 {
+            let force = self.force_at(node);
+            (0..D).map(|c| force[c] * (now[node * D + c] - before[node * D + c])).sum()
+        };
+        self.interface_nodes().iter().map(work).sum()
+    }
+
     /// The prescribed velocities of a closed domain must keep its volume.
     pub(crate) fn check_net_flux(&self, time: f64) -> Result<(), FluidError> {
         let (mut net, mut gross) = (0.0, 0.0);

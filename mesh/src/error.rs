@@ -42,6 +42,20 @@ pub enum MeshError {
     /// The mesh has no cell.
     #[error("the mesh has no cells\nhint: check that the mesh file holds triangles (2D) or tetrahedra (3D)")]
     Empty,
+    /// A boundary group that should lie on a circle does not.
+    #[error(
+        "node {node} of boundary group `{group}`, at {place}, lies {gap:.3e} m off the circle of that group\nhint: compare the circle's centre and radius with the mesh; a group with straight edges beside the arc needs a name of its own for the arc"
+    )]
+    OffCircle {
+        /// The group.
+        group: String,
+        /// First node off the circle.
+        node: usize,
+        /// Where it is.
+        place: Place,
+        /// Distance from the circle `[m]`.
+        gap: f64,
+    },
     /// Cells that are not the simplices of this dimension.
     #[error("cells of kind {found:?} do not make a mesh in {dimension} dimensions\nhint: only {:?} can be solved on there", CellKind::simplex(*dimension))]
     WrongKind {

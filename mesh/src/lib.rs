@@ -5,6 +5,7 @@
 //! |---|---|
 //! | [`mesh`] | [`Mesh`]: points, cells and named boundary groups, validated once when it is built |
 //! | [`cell`] | [`CellKind`], [`Cells`]: cells of one kind in one flat list of nodes |
+//! | [`refine`] | every triangle cut into four |
 //! | [`generate`] | rectangles of triangles, cuboids of tetrahedra |
 //! | [`gmsh`] | reading the meshes of gmsh |
 //! | [`solid`] | [`SolidMesh`]: curved triangles and quadrilaterals, their shape functions, transfer to their boundary |
@@ -40,6 +41,7 @@ pub mod gmsh;
 pub mod mesh;
 pub mod motion;
 pub mod quality;
+pub mod refine;
 pub mod simplex;
 pub mod solid;
 pub mod topology;

@@ -8,6 +8,7 @@ mod file;
 mod fluid;
 mod formula;
 mod geometry;
+mod groups;
 mod limit;
 mod newton;
 mod numbers;
@@ -22,11 +23,14 @@ pub use coupling::{
 };
 pub use file::FileName;
 pub use fluid::{
-    Condition, Diagonals, Fluid, FluidMesh, FluidTimeScheme, GmshMesh, Initial, MeshMotion, MotionLaw,
-    MotionMode, Outflow, PressurePin, RectangleMesh, Tangent,
+    Circle, Condition, Diagonals, Fluid, FluidMesh, FluidTimeScheme, GmshMesh, Initial, MeshMotion,
+    MotionLaw, MotionMode, Outflow, PressurePin, RectangleMesh, Tangent,
 };
 pub use formula::{Formula, VectorFormula, VectorFunction};
-pub use geometry::{Alignment, ArcPatch, CurvePatch, Degree, Geometry, RectanglePatch, SplineFile};
+pub use geometry::{
+    Alignment, ArcPatch, CurvePatch, Degree, Geometry, RectanglePatch, SolidMesh, SplineFile,
+};
+pub use groups::Groups;
 pub use limit::Limit;
 pub use newton::{Check, Newton, Tolerance};
 pub(crate) use numbers::plain;
@@ -34,7 +38,7 @@ pub use numbers::{
     Count, Fraction, NonNegative, NotACount, OutOfRange, Parameter, PoissonRatio, Positive, Real, Relaxation,
     SpectralRadius,
 };
-pub use output::{Output, Probe};
+pub use output::{Line, Output, Probe};
 pub use structure::{Elastic, Material, Part, Plane, RayleighDamping, Structure, StructureTimeScheme};
 
 /// A whole scene: a fluid, a structure, or both coupled.

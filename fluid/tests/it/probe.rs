@@ -58,6 +58,7 @@ fn nothing_flows_through_a_wall_that_moves_and_the_rest_leaves() {
                 .sum()
         };
         let mut areas = vec![area(&fluid)];
+        let mut last_rise = vec![0.0; 2 * fluid.interface_nodes().len()];
         assert_eq!(fluid.volume_defect(), 0.0);
         for k in 1..4 {
             let (t, dt) = (0.1 * f64::from(k), 0.1);
@@ -72,7 +73,14 @@ fn nothing_flows_through_a_wall_that_moves_and_the_rest_leaves() {
             exhaust(&mut fluid);
             areas.push(area(&fluid));
             let during = fluid.volume_defect();
+            let mut force = vec![0.0; rise.len()];
+            fluid.output(&mut force);
+            let work: f64 = (0..rise.len()).map(|i| force[i] * (rise[i] - last_rise[i])).sum();
+            assert!(work.abs() > 1e-6, "this motion takes work: {work:e}");
+            assert!((fluid.interface_work() - work).abs() < 1e-14 * work.abs());
+            last_rise = rise;
             fluid.commit();
+            assert!((fluid.interface_work() - work).abs() < 1e-14 * work.abs(), "it stays to be read");
             assert_eq!(fluid.volume_defect(), during, "the defect of the accepted step stays to be read");
             let rate = |group: &str| fluid.flow_rate(group).expect("a group");
             for wall in ["left", "right", "bottom"] {
@@ -112,4 +120,27 @@ fn steady_flow_has_no_volume_defect() {
     let rise: Vec<f64> = fluid.interface_nodes().iter().flat_map(|_| [0.0, 0.1]).collect();
     fluid.impose(&rise).expect("a motion");
     assert_eq!(fluid.volume_defect(), 0.0);
+}
+
+#[test]
+fn a_node_that_groups_share_is_pushed_once() {
+    let model = model(boundary(&[
+        ("left", BoundaryCondition::NoSlip),
+        ("right", BoundaryCondition::NoSlip),
+        ("bottom", BoundaryCondition::NoSlip),
+        ("top", BoundaryCondition::StressFree { backflow: false }),
+    ]));
+    let model = FluidModel { body_force: partita_fluid::BodyForce::Constant([0.0, -10.0]), ..model };
+    let density = model.density;
+    let mut fluid = FluidSolver::new(unit_square(4), model, settings(BDF1)).expect("a fluid");
+    fluid.begin_step(0.1, 0.1).expect("a step");
+    exhaust(&mut fluid);
+    // The walls and the bottom carry the weight of all the water, whatever the corners share.
+    let [side, down] = fluid.force_on_all(&["left", "bottom", "right"]).expect("groups");
+    assert!(side.abs() < 1e-10 && (down + 10.0 * density).abs() < 1e-10, "{side} {down}");
+    let apart: f64 =
+        ["left", "bottom", "right"].map(|group| fluid.force_on(group).expect("a group")[1]).iter().sum();
+    assert!((apart - down).abs() > 0.1, "the corners count twice in {apart}");
+    assert_eq!(fluid.force_on_all(&["left", "left"]), fluid.force_on("left"));
+    assert!(fluid.force_on_all(&["left", "nowhere"]).is_none());
 }

@@ -98,7 +98,7 @@ pub enum FluidMesh {
     Gmsh(GmshMesh),
 }
 
-/// `[fluid.mesh.gmsh]` and `[structure.geometry.gmsh]`.
+/// `[fluid.mesh.gmsh]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GmshMesh {
@@ -107,9 +107,25 @@ pub struct GmshMesh {
     /// Factor on the file's coordinates: 0.001 for a mesh in millimetres. Default: 1.
     #[serde(default = "one")]
     pub scale: Positive,
+    /// How often every triangle is cut into four. Default: 0.
+    #[serde(default)]
+    pub refine: usize,
+    /// The circle on which a curved boundary group lies, by its name: new nodes are put on it. Default: none.
+    #[serde(default)]
+    pub circles: BTreeMap<String, Circle>,
 }
 
-fn one() -> Positive {
+/// `fluid.mesh.gmsh.circles.<group>`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Circle {
+    /// Its centre \[m\].
+    pub center: [Real; 2],
+    /// Its radius \[m\].
+    pub radius: Positive,
+}
+
+pub(super) fn one() -> Positive {
     Positive::new(1.0).expect("1 is positive")
 }
 

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::file::FileName;
-use super::fluid::{GmshMesh, origin};
+use super::fluid::{one, origin};
 use super::numbers::{Count, Positive, Real};
 
 /// `[structure.geometry.*]`.
@@ -21,7 +21,7 @@ pub enum Geometry {
     Spline(SplineFile),
     /// Triangles or quadrilaterals of first or second order from a file of gmsh, instead of a spline; its physical curves are
     /// the groups that `clamped` and `wetted` name.
-    Gmsh(GmshMesh),
+    Gmsh(SolidMesh),
 }
 
 impl Geometry {
@@ -109,6 +109,27 @@ pub enum Alignment {
 pub struct SplineFile {
     /// Spline file, relative to the scene's folder.
     pub file: FileName,
+    /// Spline degree along each side, that of the file or higher. Default: that of the file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub degree: Option<[Degree; 2]>,
+    /// Elements into which every spline element of the file is cut, along each side. Default: `[1, 1]`.
+    #[serde(default = "whole")]
+    pub subdivisions: [Count; 2],
+}
+
+fn whole() -> [Count; 2] {
+    [Count::literal(1); 2]
+}
+
+/// `[structure.geometry.gmsh]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SolidMesh {
+    /// File of format 2.2 or 4.1, text or binary, relative to the scene's folder.
+    pub file: FileName,
+    /// Factor on the file's coordinates: 0.001 for a mesh in millimetres. Default: 1.
+    #[serde(default = "one")]
+    pub scale: Positive,
 }
 
 /// The degree of a spline, 1 to 9.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::groups::Groups;
 use super::numbers::{Count, Parameter, Real};
 
 /// `[output]`.
@@ -38,8 +39,30 @@ impl Default for Output {
 pub enum Probe {
     /// Displacement \[m\] of the structure at these spline parameters, each from 0 to 1.
     StructureDisplacement([Parameter; 2]),
-    /// Force of the fluid on this boundary group \[N in 3D, N/m in 2D\].
-    FluidForce(String),
+    /// Kinetic and strain energy of the structure \[J, in 2D J/m\].
+    StructureEnergy,
+    /// Force of the fluid on this boundary group, or on several together \[N, in 2D N/m\].
+    FluidForce(Groups),
     /// Velocity \[m/s\] and pressure \[Pa\] at the mesh node nearest to this point \[m\], before it moves.
     FluidValue([Real; 2]),
+    /// Smallest and largest velocity components \[m/s\] along a line, before it moves with the mesh.
+    FluidExtremes(Line),
+    /// Volume of fluid a second that leaves through this boundary group, or several together \[m3/s, in 2D m2/s\].
+    FluidFlowRate(Groups),
+    /// Kinetic energy of the fluid \[J, in 2D J/m\].
+    FluidEnergy,
+    /// Change of the mesh's volume that no flow makes up for \[m3/s, in 2D m2/s\].
+    VolumeDefect,
+    /// Work of the fluid on the structure in the step \[J, in 2D J/m\].
+    InterfaceWork,
+}
+
+/// `output.probes.<name>.fluid_extremes`: a straight line.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Line {
+    /// One end \[m\].
+    pub from: [Real; 2],
+    /// The other end \[m\].
+    pub to: [Real; 2],
 }

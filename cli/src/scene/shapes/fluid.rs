@@ -4,12 +4,16 @@ use std::path::Path;
 
 use partita_mesh::Mesh;
 use partita_mesh::generate::{self, Diagonal};
+use partita_mesh::refine;
 
 use super::FLUID_FILE;
 use super::read::{self, Input};
 use crate::scene::finding::Finding;
-use crate::scene::schema::{Count, Diagonals, FluidMesh, GmshMesh, Positive, Real, RectangleMesh};
+use crate::scene::schema::{Circle, Count, Diagonals, FluidMesh, GmshMesh, Positive, Real, RectangleMesh};
 use crate::scene::validate::Check;
+
+/// More would make millions of triangles of a single one.
+const MOST_REFINEMENTS: usize = 10;
 
 /// The mesh, or what is wrong with it.
 pub(super) fn mesh(
@@ -41,8 +45,24 @@ fn rectangle(mesh: &RectangleMesh) -> Result<Mesh<2>, Finding> {
 }
 
 fn from_file(mesh: &GmshMesh, folder: &Path, inputs: &mut Vec<Input>) -> Result<Mesh<2>, Finding> {
-    let (file, bytes) = read::gmsh(mesh, folder)?;
-    let made = file.into_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
+    let (file, bytes) = read::gmsh(&mesh.file, mesh.scale, folder)?;
+    let mut made = file.into_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
+    if mesh.refine > MOST_REFINEMENTS {
+        return Err(Finding::new(format!(
+            "refined {} times the mesh would not fit any machine",
+            mesh.refine
+        ))
+        .hint("each time it has four times as many triangles: refine it once or twice"));
+    }
+    let circles: Vec<_> = mesh
+        .circles
+        .iter()
+        .map(|(group, Circle { center, radius })| (group.as_str(), center.map(Real::get), radius.get()))
+        .map(|(group, center, radius)| refine::Circle { group, center, radius })
+        .collect();
+    for _ in 0..mesh.refine {
+        made = refine::refine(&made, &circles).map_err(|error| Finding::of(&error))?;
+    }
     inputs.push(Input { name: FLUID_FILE, bytes });
     Ok(made)
 }

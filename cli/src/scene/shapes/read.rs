@@ -6,7 +6,7 @@ use std::path::Path;
 use partita_mesh::gmsh::GmshFile;
 
 use crate::scene::finding::Finding;
-use crate::scene::schema::{FileName, GmshMesh};
+use crate::scene::schema::{FileName, Positive};
 
 /// A file that was read for a scene; its run keeps a copy.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,12 +21,11 @@ pub(crate) struct Input {
 const MOST_BYTES: u64 = 4 << 30;
 
 /// A file of gmsh with its coordinates in metres, and its bytes.
-pub(super) fn gmsh(mesh: &GmshMesh, folder: &Path) -> Result<(GmshFile, Vec<u8>), Finding> {
-    let bytes = bytes(&mesh.file, folder)?;
-    let mut file =
-        GmshFile::parse(&bytes).map_err(|error| Finding::of(&format!("{}, {error}", mesh.file)))?;
+pub(super) fn gmsh(name: &FileName, scale: Positive, folder: &Path) -> Result<(GmshFile, Vec<u8>), Finding> {
+    let bytes = bytes(name, folder)?;
+    let mut file = GmshFile::parse(&bytes).map_err(|error| Finding::of(&format!("{name}, {error}")))?;
     for x in file.points.as_flattened_mut() {
-        *x *= mesh.scale.get();
+        *x *= scale.get();
     }
     Ok((file, bytes))
 }

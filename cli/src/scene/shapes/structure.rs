@@ -9,7 +9,7 @@ use super::read::{self, Input};
 use super::{PATCH_FILE, SOLID_FILE};
 use crate::scene::finding::Finding;
 use crate::scene::schema::{
-    Alignment, ArcPatch, Count, CurvePatch, Degree, Geometry, GmshMesh, Positive, Real, RectanglePatch,
+    Alignment, ArcPatch, Count, CurvePatch, Degree, Geometry, Positive, Real, RectanglePatch, SolidMesh,
     SplineFile,
 };
 use crate::scene::validate::Check;
@@ -40,8 +40,8 @@ fn sound(patch: Spline<2>) -> Result<Space<2>, Finding> {
     }
 }
 
-fn solid(mesh: &GmshMesh, folder: &Path, inputs: &mut Vec<Input>) -> Result<Space<2>, Finding> {
-    let (file, bytes) = read::gmsh(mesh, folder)?;
+fn solid(mesh: &SolidMesh, folder: &Path, inputs: &mut Vec<Input>) -> Result<Space<2>, Finding> {
+    let (file, bytes) = read::gmsh(&mesh.file, mesh.scale, folder)?;
     let made = file.into_solid_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
     inputs.push(Input { name: SOLID_FILE, bytes });
     Ok(Space::Lagrange(made))
@@ -96,6 +96,26 @@ fn from_file(spline: &SplineFile, folder: &Path, inputs: &mut Vec<Input>) -> Res
         return Err(Finding::new(format!("{} holds a curve, not a patch", spline.file))
             .hint("a plane structure is a spline of two parameters: give two degrees and two knot vectors"));
     }
+    let patch = refined(patch, spline)?;
     inputs.push(Input { name: PATCH_FILE, bytes });
+    Ok(patch)
+}
+
+/// The same shape with more control points. The degree is raised first, so that the cuts are as smooth as it allows.
+fn refined(mut patch: Spline<2>, scene: &SplineFile) -> Result<Spline<2>, Finding> {
+    for (parameter, degree) in scene.degree.into_iter().flatten().enumerate() {
+        let (of_file, degree) = (patch.knots()[parameter].degree(), degree.get());
+        let by = degree.checked_sub(of_file).ok_or_else(|| {
+            Finding::new(format!(
+                "{} has the degree {of_file} along side {parameter}, not {degree}",
+                scene.file
+            ))
+            .hint(format!("a degree can be raised, not lowered: give {of_file} or more"))
+        })?;
+        patch = patch.elevate_degree(parameter, by);
+    }
+    for (parameter, parts) in scene.subdivisions.iter().enumerate() {
+        patch = patch.subdivide(parameter, parts.get()).map_err(|error| Finding::of(&error))?;
+    }
     Ok(patch)
 }

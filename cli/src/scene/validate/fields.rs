@@ -55,15 +55,22 @@ fn steadiness(check: &mut Check<'_>, fluid: &Fluid, structure: &Structure) {
 }
 
 fn check_probe(check: &mut Check<'_>, scene: &Scene, name: &str, probe: &Probe) {
-    let place = check.value(&["output", "probes", name]);
-    let (field, there) = match probe {
-        Probe::StructureDisplacement(_) => ("structure", scene.structure.is_some()),
-        Probe::FluidForce(_) | Probe::FluidValue(_) => ("fluid", scene.fluid.is_some()),
+    let (fluid, structure) = (scene.fluid.is_some(), scene.structure.is_some());
+    let missing = match probe {
+        Probe::StructureDisplacement(_) | Probe::StructureEnergy => (!structure).then_some("structure"),
+        Probe::FluidForce(_)
+        | Probe::FluidValue(_)
+        | Probe::FluidExtremes(_)
+        | Probe::FluidFlowRate(_)
+        | Probe::FluidEnergy
+        | Probe::VolumeDefect => (!fluid).then_some("fluid"),
+        Probe::InterfaceWork if !fluid => Some("fluid"),
+        Probe::InterfaceWork => (!structure).then_some("structure"),
     };
-    if !there {
+    if let Some(field) = missing {
         check.add(
             Finding::new(format!("probe `{name}` needs a {field}"))
-                .mark_if(place, format!("the scene has no [{field}]"))
+                .mark_if(check.value(&["output", "probes", name]), format!("the scene has no [{field}]"))
                 .hint(format!("leave the probe out, or add a [{field}]")),
         );
     }

@@ -3,15 +3,25 @@
 use super::Check;
 use crate::nearest::nearest;
 use crate::scene::finding::Finding;
-use crate::scene::schema::{Condition, Fluid, Probe, Scene};
+use crate::scene::schema::{Condition, Fluid, FluidMesh, Probe, Scene};
 
 /// Conditions, sliding groups and probes against the boundary groups of the mesh.
 pub(super) fn check(check: &mut Check<'_>, scene: &Scene, fluid: &Fluid, groups: &[&str]) {
     conditions(check, fluid, groups);
     slides(check, fluid, groups);
+    if let FluidMesh::Gmsh(mesh) = &fluid.mesh {
+        for group in mesh.circles.keys() {
+            known_group(check, groups, group, &["fluid", "mesh", "gmsh", "circles", group]);
+        }
+    }
     for (name, probe) in &scene.output.probes {
-        if let Probe::FluidForce(group) = probe {
-            known_group(check, groups, group, &["output", "probes", name, "fluid_force"]);
+        let (key, named) = match probe {
+            Probe::FluidForce(named) => ("fluid_force", named),
+            Probe::FluidFlowRate(named) => ("fluid_flow_rate", named),
+            _ => continue,
+        };
+        for group in named.names() {
+            known_group(check, groups, group, &["output", "probes", name, key]);
         }
     }
 }

@@ -5,7 +5,7 @@ use partita_mesh::{Mesh, Place};
 
 use super::{Check, groups};
 use crate::scene::finding::Finding;
-use crate::scene::schema::{Fluid, FluidMesh, Probe, Real, Scene};
+use crate::scene::schema::{Fluid, FluidMesh, Line, Probe, Real, Scene};
 
 /// The fluid's mesh against what the scene says about it.
 pub(super) fn check(check: &mut Check<'_>, scene: &Scene, fluid: &Fluid, mesh: &Mesh<2>) {
@@ -16,8 +16,17 @@ pub(super) fn check(check: &mut Check<'_>, scene: &Scene, fluid: &Fluid, mesh: &
     uncovered(check, mesh);
     pieces(check, mesh);
     for (name, probe) in &scene.output.probes {
-        if let Probe::FluidValue(point) = probe {
-            probed(check, mesh, name, point.map(Real::get));
+        match probe {
+            Probe::FluidValue(point) => {
+                probed(check, mesh, &["output", "probes", name, "fluid_value"], point.map(Real::get));
+            }
+            Probe::FluidExtremes(Line { from, to }) => {
+                for (key, end) in [("from", from), ("to", to)] {
+                    let path = ["output", "probes", name, "fluid_extremes", key];
+                    probed(check, mesh, &path, end.map(Real::get));
+                }
+            }
+            _ => {}
         }
     }
 }
@@ -94,16 +103,13 @@ fn centroid(mesh: &Mesh<2>, cell: usize) -> [f64; 2] {
 }
 
 /// A value is probed at the nearest node, which must not be another place than the one meant.
-fn probed(check: &mut Check<'_>, mesh: &Mesh<2>, name: &str, point: [f64; 2]) {
+fn probed(check: &mut Check<'_>, mesh: &Mesh<2>, path: &[&str], point: [f64; 2]) {
     if inside(mesh, point) {
         return;
     }
     check.add(
-        Finding::new(format!("probe `{name}` lies outside the fluid's mesh"))
-            .mark_if(
-                check.value(&["output", "probes", name, "fluid_value"]),
-                format!("no triangle holds {}", Place::from(point)),
-            )
+        Finding::new(format!("probe `{}` lies outside the fluid's mesh", path[2]))
+            .mark_if(check.value(path), format!("no triangle holds {}", Place::from(point)))
             .hint("give a point [m] inside the undeformed mesh"),
     );
 }

@@ -54,14 +54,17 @@ fn size(check: &mut Check<'_>, structure: &Structure) {
         Geometry::Rectangle(patch) => ("rectangle", patch.elements, patch.degree),
         Geometry::Arc(patch) => ("arc", patch.elements, patch.degree),
         Geometry::Curve(patch) => ("curve", patch.elements, patch.degree),
-        Geometry::Spline(_) | Geometry::Gmsh(_) => return,
+        // At least so many: the file has an element or more.
+        Geometry::Spline(spline) => ("spline", spline.subdivisions, spline.degree.unwrap_or_default()),
+        Geometry::Gmsh(_) => return,
     };
     let along = |c: usize| (elements[c].get() + degree[c].get()) as f64;
     let points = along(0) * along(1);
     if points > MOST_POINTS {
+        let key = if choice == "spline" { "subdivisions" } else { "elements" };
         check.add(
             Finding::new(format!("the structure would have about {points:.0e} control points"))
-                .mark_if(check.value(&["structure", "geometry", choice, "elements"]), "too fine")
+                .mark_if(check.value(&["structure", "geometry", choice, key]), "too fine")
                 .hint(format!("at most {MOST_POINTS:.0e} can be asked for")),
         );
     }

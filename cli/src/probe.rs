@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use partita_fluid::FluidSolver;
 use partita_structure::StructureSolver;
 
-use crate::build::{Run, nearest_node};
+use crate::build::{self, Run, nearest_node};
 use crate::scene::schema::{self, Parameter, Real};
 use line::Samples;
 
@@ -76,7 +76,7 @@ impl Probes {
 fn quantities(probe: &schema::Probe) -> &'static [&'static str] {
     use schema::Probe;
     match probe {
-        Probe::StructureDisplacement(_) => &["displacement_x", "displacement_y"],
+        Probe::StructureDisplacement(_) | Probe::StructurePoint(_) => &["displacement_x", "displacement_y"],
         Probe::StructureEnergy => &["kinetic_energy", "strain_energy"],
         Probe::FluidForce(_) => &["force_x", "force_y"],
         Probe::FluidValue(_) => &["velocity_x", "velocity_y", "pressure"],
@@ -97,6 +97,12 @@ fn place(probe: &schema::Probe, run: &Run) -> Place {
     Place::Fluid(match probe {
         Probe::StructureDisplacement(xi) => {
             return Place::Structure(StructurePlace::Displacement(xi.map(Parameter::get)));
+        }
+        Probe::StructurePoint(point) => {
+            let space = run.second().field().map(StructureSolver::space);
+            let place = space.and_then(|space| build::place_in(space, point.map(Real::get)));
+            let place = place.expect("the scene's probes were checked against its structure");
+            return Place::Structure(StructurePlace::Displacement(place));
         }
         Probe::StructureEnergy => return Place::Structure(StructurePlace::Energy),
         Probe::FluidForce(groups) => FluidPlace::Force(groups.names().to_vec()),

@@ -92,8 +92,7 @@ fn check_on_circle(mesh: &Mesh<2>, circle: &Circle<'_>) -> Result<(), MeshError>
     for node in mesh.group_nodes(circle.group).unwrap_or_default() {
         let point = mesh.points()[node];
         let gap = (circle.distance(point) - circle.radius).abs();
-        // Not `gap > ...`: a gap that is no number is off, too.
-        if !(gap <= ON_CIRCLE * circle.radius) {
+        if gap.is_nan() || gap > ON_CIRCLE * circle.radius {
             return Err(MeshError::OffCircle {
                 group: circle.group.to_owned(),
                 node,

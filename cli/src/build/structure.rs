@@ -1,6 +1,6 @@
 //! The scene's structure in the words of the structure crate.
 
-use partita_iga::Side;
+use partita_iga::{Side, project};
 use partita_structure::{
     BodyForce, Boundary, Law, Material, Plane, Rayleigh, Space, StructureModel, StructureSettings,
     StructureSolver, TimeScheme,
@@ -70,6 +70,23 @@ pub(crate) fn boundary(space: &Space<2>, parts: &[schema::Part]) -> Boundary {
     match space {
         Space::Patch(_) => parts.iter().filter_map(|part| side(part.name())).collect(),
         Space::Lagrange(_) => parts.iter().map(|part| part.name().to_owned()).collect(),
+    }
+}
+
+/// A point off a patch by less than this part of its size is taken to be on it.
+const ON_PATCH: f64 = 1e-6;
+
+/// Where an undeformed point \[m\] lies in a space, as its fields are evaluated there: parameters of a patch, the point
+/// itself in a mesh. `None` outside of it.
+pub(crate) fn place_in(space: &Space<2>, point: [f64; 2]) -> Option<[f64; 2]> {
+    match space {
+        Space::Patch(spline) => {
+            let nearest = project::closest_point(spline, &point);
+            let [low, high] = spline.bounding_box();
+            let size = (high[0] - low[0]).hypot(high[1] - low[1]);
+            (nearest.distance <= ON_PATCH * size).then(|| [nearest.xi[0], nearest.xi[1]])
+        }
+        Space::Lagrange(mesh) => mesh.locate(&point).map(|_| point),
     }
 }
 

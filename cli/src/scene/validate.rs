@@ -5,11 +5,10 @@ mod fluid;
 mod groups;
 mod interface;
 mod mesh;
+mod solid;
 mod structure;
 
 use std::ops::Range;
-
-use partita_structure::Space;
 
 use super::document::Document;
 use super::finding::Finding;
@@ -32,9 +31,8 @@ pub(super) fn validate_shapes(check: &mut Check<'_>, scene: &Scene, shapes: &Sha
     if let (Some(fluid), Some(mesh)) = (&scene.fluid, &shapes.fluid) {
         mesh::check(check, scene, fluid, mesh);
     }
-    if let (Some(structure), Some(Space::Lagrange(mesh))) = (&scene.structure, &shapes.structure) {
-        let names: Vec<&str> = mesh.groups().iter().map(|group| group.name.as_str()).collect();
-        structure::known_parts(check, structure, "mesh", &names);
+    if let (Some(structure), Some(space)) = (&scene.structure, &shapes.structure) {
+        solid::check(check, scene, structure, space);
     }
     interface::check(check, scene, shapes);
 }

@@ -8,6 +8,7 @@ mod output;
 mod program;
 mod relaxation;
 mod scene;
+mod solid;
 mod static_tank;
 mod tank;
 mod work;

@@ -37,8 +37,10 @@ impl Default for Output {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Probe {
-    /// Displacement \[m\] of the structure at these spline parameters, each from 0 to 1.
+    /// Displacement \[m\] of the structure at these parameters of its patch, each from 0 to 1.
     StructureDisplacement([Parameter; 2]),
+    /// Displacement \[m\] of the structure at this point \[m\], before it moves.
+    StructurePoint([Real; 2]),
     /// Kinetic and strain energy of the structure \[J, in 2D J/m\].
     StructureEnergy,
     /// Force of the fluid on this boundary group, or on several together \[N, in 2D N/m\].

@@ -57,7 +57,9 @@ fn steadiness(check: &mut Check<'_>, fluid: &Fluid, structure: &Structure) {
 fn check_probe(check: &mut Check<'_>, scene: &Scene, name: &str, probe: &Probe) {
     let (fluid, structure) = (scene.fluid.is_some(), scene.structure.is_some());
     let missing = match probe {
-        Probe::StructureDisplacement(_) | Probe::StructureEnergy => (!structure).then_some("structure"),
+        Probe::StructurePoint(_) | Probe::StructureDisplacement(_) | Probe::StructureEnergy => {
+            (!structure).then_some("structure")
+        }
         Probe::FluidForce(_)
         | Probe::FluidValue(_)
         | Probe::FluidExtremes(_)

@@ -91,7 +91,7 @@ fn a_missing_table_is_named() {
        ·      ╰── `geometry` is missing here
     23 │ density = 1000.0
        ╰────
-     help: choose `structure.geometry`, it has no default: rectangle, arc, curve, spline
+     help: choose `structure.geometry`, it has no default: rectangle, arc, curve, spline, gmsh
            Where the structure is.
     ");
 }

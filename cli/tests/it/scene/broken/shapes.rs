@@ -399,8 +399,8 @@ fn a_mesh_in_millimetres_is_read_with_its_scale() {
 #[test]
 fn an_interface_off_the_structure_is_measured() {
     assert_snapshot!(message(&on_file().replace("origin = [0.0, -0.05]", "origin = [0.0, -0.06]"), &MeshText::square().write()), @r#"
-     × 3 of 3 interface nodes of the fluid lie off the structure, the farthest, (0, 0) m, by 1.000e-2
-     │ m from side `top`
+     × 3 of 3 interface nodes of the fluid lie off the structure, the farthest, (1, 0) m, by 1.000e-2
+     │ m from `top`
        ╭─[scene.toml:19:10]
     18 │ top = "stress_free"
     19 │ bottom = "interface"
@@ -416,7 +416,7 @@ fn an_interface_off_the_structure_is_measured() {
     25 │ 
        ╰────
      help: loads and displacements pass between points that coincide (here within 1.0e-6 m): compare
-           the two boundaries in place and shape, name every wetted side, or raise
+           the two boundaries in place and shape, name every wetted part, or raise
            `coupling.projection_tolerance`
     "#);
 }
@@ -425,8 +425,8 @@ fn an_interface_off_the_structure_is_measured() {
 fn a_structure_that_goes_beyond_the_fluid_is_refused() {
     let wider = on_file().replace("size = [1.0, 0.05]", "size = [1.25, 0.05]");
     assert_snapshot!(message(&wider, &MeshText::square().write()), @r#"
-     × side `top` of the structure ends at (1.25, 0) m, where the fluid has no interface node; the
-     │ nearest is 2.500e-1 m away
+     × `top` of the structure ends at (1.25, 0) m, where the fluid has no interface node; the nearest
+     │ is 2.500e-1 m away
        ╭─[scene.toml:19:10]
     18 │ top = "stress_free"
     19 │ bottom = "interface"
@@ -441,8 +441,8 @@ fn a_structure_that_goes_beyond_the_fluid_is_refused() {
        ·             ╰── wetted up to its ends
     25 │ 
        ╰────
-     help: the fluid's boundary and the wetted sides must begin, bend and end in the same points: put
-           a point of the .geo file there, or leave the side out of `wetted`
+     help: the fluid's boundary and the wetted parts must begin, bend and end in the same points: put
+           a point of the .geo file there, or leave the part out of `wetted`
     "#);
 }
 

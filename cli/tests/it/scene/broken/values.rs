@@ -178,15 +178,15 @@ fn one_component_in_two_dimensions_is_refused() {
 #[test]
 fn an_unknown_side_names_the_nearest_one() {
     assert_snapshot!(broken("[\"left\", \"right\"]", "[\"left\", \"rigth\"]"), @r#"
-      × structure.clamped cannot be `rigth`
-        ╭─[scene.toml:24:20]
-     23 │ density = 1000.0
-     24 │ clamped = ["left", "rigth"]
-        ·                    ───┬───
-        ·                       ╰── unknown choice
-     25 │ wetted = ["top"]
-        ╰────
-      help: did you mean `right`?
+     × the patch of the structure has no part `rigth`
+       ╭─[scene.toml:24:11]
+    23 │ density = 1000.0
+    24 │ clamped = ["left", "rigth"]
+       ·           ────────┬────────
+       ·                   ╰── unknown part
+    25 │ wetted = ["top"]
+       ╰────
+     help: did you mean `right`?
     "#);
 }
 

@@ -1,5 +1,6 @@
 //! A structure on a mesh of gmsh beside the patch of the same shape.
 
+use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
@@ -117,7 +118,8 @@ fn bottom(elements: usize) -> String {
     let places = points.map(|(i, j)| {
         format!("{} {} {} 0\n", node(i, j), i as f64 / elements as f64, if j == 0 { -0.05 } else { 0.0 })
     });
-    text += &format!("$Nodes\n{}\n{}$EndNodes\n", 2 * row, places.collect::<String>());
+    write!(text, "$Nodes\n{}\n{}$EndNodes\n", 2 * row, places.collect::<String>())
+        .expect("a string takes it");
     let mut lines = vec![
         format!("1 2 1 1 {} {}", node(0, 1), node(0, 0)),
         format!("1 2 2 2 {} {}", node(elements, 0), node(elements, 1)),
@@ -128,5 +130,7 @@ fn bottom(elements: usize) -> String {
             .map(|i| format!("3 2 9 9 {} {} {} {}", node(i, 0), node(i + 1, 0), node(i + 1, 1), node(i, 1))),
     );
     let numbered = lines.iter().enumerate().map(|(k, line)| format!("{} {line}\n", k + 1));
-    text + &format!("$Elements\n{}\n{}$EndElements\n", lines.len(), numbered.collect::<String>())
+    write!(text, "$Elements\n{}\n{}$EndElements\n", lines.len(), numbered.collect::<String>())
+        .expect("a string takes it");
+    text
 }

@@ -9,6 +9,9 @@ use proptest::prelude::*;
 
 const TANGENTS: [Tangent; 3] = [Tangent::Full, Tangent::FrozenTau, Tangent::Picard];
 
+/// Of the central differences, in m/s and Pa.
+const DIFFERENCE_STEP: f64 = 1e-5;
+
 /// What acts on the element: its interior, and one kind of boundary term on each of its facets in turn.
 #[derive(Debug, Clone, Copy)]
 enum Part {
@@ -75,6 +78,25 @@ impl<const D: usize, const N: usize> Case<D, N> {
         flatten(&self.terms(&element, part, None))
     }
 
+    /// Whether no flux through a quadrature point of a facet comes within a difference step of zero, where the backflow
+    /// term has its kink and a difference is no derivative.
+    fn keeps_off_the_kink(&self) -> bool {
+        let (gradients, measure) = shape(&self.fields.points);
+        let far = (1.0 - 1.0 / ((D + 1) as f64).sqrt()) / D as f64;
+        let flux = |opposite: usize, near: usize| -> f64 {
+            let through = |a: usize| -> f64 {
+                let weight = if a == near { 1.0 - (D - 1) as f64 * far } else { far };
+                (0..D).map(|i| -weight * gradients[opposite][i] * self.fields.convective[a][i]).sum()
+            };
+            D as f64 * measure * (0..N).filter(|&a| a != opposite).map(through).sum::<f64>()
+        };
+        let reach = |opposite: usize| {
+            let area = D as f64 * measure * gradients[opposite].iter().map(|g| g * g).sum::<f64>().sqrt();
+            2.0 * DIFFERENCE_STEP * area
+        };
+        (0..N).all(|o| (0..N).filter(|&a| a != o).all(|near| flux(o, near).abs() > reach(o)))
+    }
+
     fn held(&self) -> Stabilization<D> {
         *Element::new(&self.fields, &self.flow).stabilization()
     }
@@ -111,7 +133,7 @@ impl<const D: usize, const N: usize> Case<D, N> {
     fn differenced(&self, part: Part) -> Vec<f64> {
         let size = N * (D + 1);
         let mut matrix = vec![0.0; size * size];
-        let step = 1e-5;
+        let step = DIFFERENCE_STEP;
         for column in 0..size {
             let shifted = |by: f64| {
                 let (mut velocity, mut pressure) = (self.fields.velocity, self.fields.pressure);
@@ -161,14 +183,15 @@ fn check<const D: usize, const N: usize>(numbers: &[f64], steady: bool) {
     for tangent in TANGENTS {
         let case = Case::<D, N>::new(numbers, steady, tangent);
         for part in [Part::Interior, Part::Traction, Part::DoNothing, Part::Backflow] {
+            if matches!(part, Part::Backflow) && !case.keeps_off_the_kink() {
+                continue;
+            }
             let defect = case.defect(part);
             assert!(defect < 1e-6, "{tangent:?}, {part:?}: {defect:.1e}");
         }
     }
 }
 
-/// Backflow has a kink where the flux through a quadrature point changes sign; random data meets it only by
-/// chance, and then within one difference step.
 fn numbers() -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(-1.0..1.0, 6 * 4 * 3 + 12)
 }

@@ -117,3 +117,23 @@ fn virtual_work_survives_every_transfer() {
     assert!(defects.len() > 12, "{} iterations", defects.len());
     assert!(defects.iter().all(|defect| *defect < 1e-14), "{defects:?}");
 }
+
+/// The fluid's boundary lies on the structure's surface: each node where the spline is at its place. Work, energy and
+/// total force cannot tell control points that changed places in H, for its transpose sends the loads after them.
+#[test]
+fn fluid_boundary_lies_on_the_surface_of_the_structure() {
+    // As many edges as spline elements, so that every control point moves some node; a load without symmetry.
+    let (mut run, dt) = tight(&["fluid.mesh.rectangle.divisions=[20,8]", "fluid.body_force=[4.0,-9.81]"]);
+    for _ in 0..2 {
+        run.step(dt, &mut ()).expect("the step converges");
+    }
+    let fluid = run.first().field().expect("the tank has a fluid");
+    let sag = structure(&run).displacement_at(&[0.5, 1.0])[1].abs();
+    for (&node, moved) in fluid.interface_nodes().iter().zip(run.interface().displacement.chunks_exact(2)) {
+        let place = fluid.mesh().points()[node][0]; // the tank is one metre wide
+        let surface = structure(&run).displacement_at(&[place, 1.0]);
+        for c in 0..2 {
+            assert!((moved[c] - surface[c]).abs() < 1e-8 * sag, "x = {place}: {moved:?} and {surface:?}");
+        }
+    }
+}

@@ -80,7 +80,7 @@ fn study(order: BdfOrder, steps: [usize; 3], bounds: [f64; 4]) {
     let norms = [
         ("velocity", pick(|o| o.errors.velocity), 2.0),
         ("gradient", pick(|o| o.errors.gradient), 1.0),
-        ("pressure", pick(|o| o.errors.pressure), 1.0),
+        ("pressure", pick(|o| o.errors.pressure), 2.0),
         ("rate of decay", pick(|o| o.decay), 2.0),
     ];
     for ((name, errors, expected), error) in norms.into_iter().zip(bounds) {

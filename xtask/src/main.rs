@@ -3,6 +3,7 @@
 //! Nothing here depends on a solver crate: what is heavy is started as the `partita` binary, and its `summary.json`
 //! is read back.
 
+mod benchmark;
 mod ci;
 mod csv;
 mod options;
@@ -29,6 +30,9 @@ Tasks:
                          (with --quick: check is the default, write keeps the counts)
     --jobs N             runs at a time (default: as many as there are cores)
     --fresh              run again what is remembered
+  benchmark [CASE]...    run published benchmarks on all levels and compare with docs/data/benchmarks.csv
+    --level L            only this level, 1 is the coarsest
+    --mode MODE          check (default), or write: keep the results, draw docs/benchmarks.md and its pictures
   ci [--skip NAME]...    run all that CI runs, in its order: test, fmt, clippy, doc, tidy, reproduce
 ";
 
@@ -49,6 +53,7 @@ fn dispatch(arguments: &[&str]) -> Result<(), TaskError> {
     match arguments {
         ["tidy"] => tidy::run(root),
         ["reproduce", options @ ..] => reproduce::run(root, &Options::parse("reproduce", options)?),
+        ["benchmark", options @ ..] => benchmark::run(root, options),
         ["ci", options @ ..] => ci::run(root, &skipped(options)?),
         ["help" | "--help" | "-h"] => {
             print!("{USAGE}");

@@ -1,0 +1,177 @@
+//! Published benchmarks, run level by level with the release binary and compared with the literature.
+//!
+//! A case is described by `benchmark.toml` beside its scene. What comes out is kept in `docs/data/benchmarks.csv`; the
+//! page and the pictures are made from that file alone.
+
+mod case;
+mod options;
+mod page;
+mod plot;
+mod row;
+mod run;
+mod signal;
+
+use std::path::{Path, PathBuf};
+
+use case::Case;
+use options::{Mode, Options};
+use row::Row;
+
+use crate::task::{TaskError, cargo, run as run_command};
+
+const DATA: &str = "docs/data/benchmarks.csv";
+const PAGE: &str = "docs/benchmarks.md";
+const PICTURES: &str = "docs/benchmarks";
+
+/// Runs the levels that `words` ask for and checks or writes what comes out.
+pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
+    let options = Options::read(words).map_err(TaskError::Failed)?;
+    let cases = case::all(root)?;
+    let chosen = options.choose(&cases).map_err(TaskError::Failed)?;
+    let binary = release_binary(root)?;
+    let folder = binary.parent().and_then(Path::parent).expect("target/release/partita").join("benchmark");
+    let mut kept = kept_rows(root)?;
+    let mut differing = Vec::new();
+    for (case, levels) in chosen {
+        for level in levels {
+            let found = run::level(root, &binary, case, level, &folder)?;
+            print!("{}", table(&found));
+            match options.mode {
+                Mode::Check => differing.extend(differences(&kept, &found)),
+                Mode::Write => {
+                    kept.retain(|row| (&row.case, row.level) != (&case.name, level));
+                    kept.extend(found);
+                    // After each level: a task that is cut off keeps what it has.
+                    write(root, &cases, &mut kept)?;
+                }
+            }
+        }
+    }
+    if differing.is_empty() { Ok(()) } else { Err(TaskError::Failed(differing.join("\n"))) }
+}
+
+/// Builds the program; it lies beside the profile of this one.
+fn release_binary(root: &Path) -> Result<PathBuf, TaskError> {
+    run_command(cargo(root, &["build", "--release", "--package", "partita", "--bin", "partita"]))?;
+    let this =
+        std::env::current_exe().map_err(|source| TaskError::File { path: PathBuf::from("xtask"), source })?;
+    let target = this.parent().and_then(Path::parent).expect("cargo puts a binary into target/<profile>");
+    Ok(target.join("release").join(format!("partita{}", std::env::consts::EXE_SUFFIX)))
+}
+
+fn kept_rows(root: &Path) -> Result<Vec<Row>, TaskError> {
+    let path = root.join(DATA);
+    match std::fs::read_to_string(&path) {
+        Ok(text) => row::from_csv(&text).map_err(|what| TaskError::Failed(format!("{DATA}: {what}"))),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(Vec::new()),
+        Err(source) => Err(TaskError::File { path, source }),
+    }
+}
+
+/// Each row found that the kept ones do not have, or have otherwise.
+fn differences(kept: &[Row], found: &[Row]) -> Vec<String> {
+    let difference = |row: &Row| {
+        let Row { case, level, quantity, ours, .. } = row;
+        match kept.iter().find(|before| before.is_about_the_same_as(row)) {
+            None => Some(format!("{case} level {level}, {quantity}: {ours}, not in {DATA}")),
+            Some(before) if !before.agrees_with(row) => Some(format!(
+                "{case} level {level}, {quantity}: {ours} (of {} unknowns, {} steps, reference {}), {DATA} has {} ({}, {}, {})",
+                row.dofs, row.steps, row.reference, before.ours, before.dofs, before.steps, before.reference
+            )),
+            Some(_) => None,
+        }
+    };
+    found.iter().filter_map(difference).collect()
+}
+
+/// The rows in the order of the cases, and the page and pictures of them.
+fn write(root: &Path, cases: &[Case], rows: &mut Vec<Row>) -> Result<(), TaskError> {
+    let place = |row: &Row| {
+        let case = cases.iter().position(|case| case.name == row.case)?;
+        let quantity = cases[case].quantities.iter().position(|quantity| quantity.name == row.quantity)?;
+        Some((case, row.level, quantity))
+    };
+    rows.retain(|row| place(row).is_some());
+    rows.sort_by_key(place);
+    put(&root.join(DATA), &row::to_csv(rows))?;
+    put(&root.join(PAGE), &page::markdown(cases, rows))?;
+    for case in cases {
+        let of_case: Vec<&Row> = rows.iter().filter(|row| row.case == case.name).collect();
+        if let Some(picture) = plot::errors(&case.title, &of_case) {
+            put(&root.join(PICTURES).join(format!("{}.svg", case.name)), &picture)?;
+        }
+    }
+    Ok(())
+}
+
+fn put(path: &Path, text: &str) -> Result<(), TaskError> {
+    let refused = |source| TaskError::File { path: path.to_owned(), source };
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(refused)?;
+    }
+    std::fs::write(path, text).map_err(refused)
+}
+
+fn table(rows: &[Row]) -> String {
+    let line = |row: &Row| {
+        let mark = if row.meets_its_target() { "" } else { "  above its target" };
+        format!(
+            "{:<14} {} {:<28} {:>12} {:>12} {:>9} %{mark}\n",
+            row.case, row.level, row.quantity, row.reference, row.ours, row.error_percent
+        )
+    };
+    rows.iter().map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::task::workspace_root;
+
+    fn row(level: usize, ours: &str) -> Row {
+        Row {
+            case: "csm1".into(),
+            level,
+            quantity: "u_y".into(),
+            reference: "-66.1".into(),
+            ours: ours.into(),
+            error_percent: "1".into(),
+            target_percent: "1".into(),
+            dofs: 100,
+            steps: 1,
+            cpu_seconds: "0.01".into(),
+            coupling_per_step: String::new(),
+        }
+    }
+
+    #[test]
+    fn a_changed_number_and_a_new_row_are_differences() {
+        let kept = [row(1, "-65"), row(2, "-66")];
+        assert_eq!(differences(&kept, &kept), Vec::<String>::new());
+        let found = differences(&kept, &[row(1, "-65.1"), row(2, "-66"), row(3, "-66.1")]);
+        assert_eq!(found.len(), 2);
+        assert!(found[0].contains("-65.1") && found[0].contains("has -65 "), "{}", found[0]);
+        assert!(found[1].contains("not in docs/data/benchmarks.csv"), "{}", found[1]);
+    }
+
+    /// Page and pictures say what the data says: nobody has edited one without the other.
+    #[test]
+    fn the_page_and_the_pictures_are_those_of_the_data() {
+        let root = workspace_root();
+        let cases = case::all(root).expect("the shipped cases");
+        let rows = kept_rows(root).expect("the shipped rows");
+        let read = |path: &str| std::fs::read_to_string(root.join(path)).expect(path);
+        let hint = "cargo xtask benchmark --mode write";
+        assert!(read(PAGE) == page::markdown(&cases, &rows), "{PAGE} is not of {DATA}; {hint}");
+        for case in &cases {
+            let of_case: Vec<&Row> = rows.iter().filter(|row| row.case == case.name).collect();
+            assert_eq!(of_case.len(), case.levels.len() * case.quantities.len(), "rows of {}", case.name);
+            let picture = plot::errors(&case.title, &of_case).expect("more than one level");
+            assert!(
+                read(&format!("{PICTURES}/{}.svg", case.name)) == picture,
+                "picture of {}; {hint}",
+                case.name
+            );
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Mean, amplitude and frequency of the last period of a signal, as Turek and Hron (2006) define them.
+
+/// A periodic signal in three numbers, in the units of its values and times.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Swing {
+    /// (max + min)/2 over the last period.
+    pub(super) mean: f64,
+    /// (max - min)/2 over the last period.
+    pub(super) amplitude: f64,
+    /// 1 / the last period.
+    pub(super) frequency: f64,
+}
+
+/// How far from the middle a signal must have been, as part of its half range, for its next crossing to count: what rides
+/// on the swing crosses the middle too.
+const SWUNG: f64 = 0.3;
+
+/// The last whole period of samples `values` at increasing `times`; nothing where there is no whole one.
+///
+/// The period lies between the last two upward crossings of the middle between the extremes of the second half of the
+/// run; crossings are interpolated on a line, extremes by a parabola through three samples.
+pub(super) fn last_period(times: &[f64], values: &[f64]) -> Option<Swing> {
+    let settled = &values[values.len() / 2..];
+    let (low, high) = range(settled.iter().copied())?;
+    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+    let crossings = upward_crossings(times, values, middle, SWUNG * half);
+    let [.., (begin, first), (end, last)] = &crossings[..] else { return None };
+    let extremes = (*first..=*last).flat_map(|i| [values[i], at_the_top(times, values, i)]);
+    let (low, high) = range(extremes)?;
+    Some(Swing { mean: 0.5 * (high + low), amplitude: 0.5 * (high - low), frequency: 1.0 / (end - begin) })
+}
+
+/// Smallest and largest of some numbers, if there are two different ones.
+fn range(numbers: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    let (low, high) = numbers
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), number| (low.min(number), high.max(number)));
+    (low < high).then_some((low, high))
+}
+
+/// Time of each upward crossing of `level` and the first sample after it. Between two of them the signal has been
+/// `margin` above and below the level.
+fn upward_crossings(times: &[f64], values: &[f64], level: f64, margin: f64) -> Vec<(f64, usize)> {
+    let mut crossings = Vec::new();
+    let mut was_below = false;
+    let mut candidate = None;
+    for i in 1..values.len() {
+        let (before, now) = (values[i - 1] - level, values[i] - level);
+        was_below |= now < -margin;
+        if before < 0.0 && now >= 0.0 {
+            candidate = Some((times[i - 1] + (times[i] - times[i - 1]) * before / (before - now), i));
+        }
+        if was_below && now > margin {
+            crossings.extend(candidate);
+            was_below = false;
+        }
+    }
+    crossings
+}
+
+/// The vertex of the parabola through sample `i` and its neighbours, where the sample is an extreme among them.
+fn at_the_top(times: &[f64], values: &[f64], i: usize) -> f64 {
+    if i == 0 || i + 1 >= values.len() {
+        return values[i];
+    }
+    let (left, right) = (times[i] - times[i - 1], times[i + 1] - times[i]);
+    let (fall, rise) = ((values[i] - values[i - 1]) / left, (values[i + 1] - values[i]) / right);
+    if fall * rise >= 0.0 {
+        return values[i];
+    }
+    let curvature = (rise - fall) / (left + right);
+    let slope = fall + curvature * left;
+    values[i] - 0.25 * slope * slope / curvature
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    fn sampled(step: f64, count: usize, signal: impl Fn(f64) -> f64) -> Option<Swing> {
+        let times: Vec<f64> = (0..count).map(|i| step * i as f64).collect();
+        let values: Vec<f64> = times.iter().map(|&t| signal(t)).collect();
+        last_period(&times, &values)
+    }
+
+    fn close(swing: Swing, [mean, amplitude, frequency]: [f64; 3], bound: f64) {
+        for (found, expected) in
+            [(swing.mean, mean), (swing.amplitude, amplitude), (swing.frequency, frequency)]
+        {
+            assert!(
+                (found - expected).abs() < bound,
+                "{swing:?}, expected {mean} +- {amplitude} [{frequency}]"
+            );
+        }
+    }
+
+    #[test]
+    fn a_sine_has_its_mean_amplitude_and_frequency() {
+        let swing = sampled(0.01, 1000, |t| 3.0 - 2.0 * (TAU * 1.1 * t).sin()).expect("periods");
+        close(swing, [3.0, 2.0, 1.1], 1e-4);
+    }
+
+    /// Mean and amplitude are those of the extremes, not of the average: (1 - cos) / 2 squared has the average 3/8.
+    #[test]
+    fn the_mean_lies_between_the_extremes() {
+        let swing = sampled(0.005, 2000, |t| (0.5 - 0.5 * (TAU * 0.7 * t).cos()).powi(2)).expect("periods");
+        close(swing, [0.5, 0.5, 0.7], 1e-4);
+    }
+
+    #[test]
+    fn the_last_period_counts_and_not_the_transient() {
+        let swing = sampled(0.01, 2000, |t| {
+            -1.0 + (0.5 + 3.0 * (-t).exp()) * (TAU * 2.0 * t).cos() + 8.0 * (-2.0 * t).exp()
+        });
+        close(swing.expect("periods"), [-1.0, 0.5, 2.0], 1e-3);
+    }
+
+    #[test]
+    fn ripples_on_the_swing_are_no_periods() {
+        let swing = sampled(0.01, 1500, |t| (TAU * t).sin() + 0.1 * (TAU * 13.0 * t).sin()).expect("periods");
+        assert!((swing.frequency - 1.0).abs() < 5e-3, "{swing:?}");
+        assert!((swing.amplitude - 1.1).abs() < 2e-2, "{swing:?}");
+    }
+
+    /// Samples miss the top of a fast swing by 5 %; the parabola finds it.
+    #[test]
+    fn extremes_between_samples_are_found() {
+        let swing = sampled(0.1, 400, |t| (TAU * t + 0.2).sin()).expect("periods");
+        close(swing, [0.0, 1.0, 1.0], 6e-3);
+    }
+
+    #[test]
+    fn a_rest_or_half_a_swing_has_no_period() {
+        assert_eq!(sampled(0.1, 100, |_| 2.0), None);
+        assert_eq!(sampled(0.01, 60, |t| (TAU * t).sin()), None);
+        assert_eq!(last_period(&[], &[]), None);
+    }
+}

@@ -1,6 +1,7 @@
 //! Whole-crate tests: scenes, output, checkpoints, runs.
 
 mod beam;
+mod benchmarks;
 mod checkpoint;
 mod failures;
 mod linear_tank;

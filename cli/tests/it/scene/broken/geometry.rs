@@ -4,6 +4,7 @@ use std::fs;
 
 use insta::assert_snapshot;
 use partita::scene::{Resolved, SceneError, read_in};
+use partita_structure::Space;
 use tempfile::TempDir;
 
 use super::super::SOUND;
@@ -40,6 +41,37 @@ fn a_patch_from_a_file_is_sound() {
     let resolved = read(&folder, FROM_FILE, PATCH).unwrap_or_else(|error| panic!("{}", render(&error)));
     assert_eq!(resolved.shapes.structure.as_ref().expect("a patch").node_count(), 4);
     assert!(resolved.to_toml().contains("file = \"input/structure.toml\""));
+}
+
+#[test]
+fn a_patch_from_a_file_is_refined_without_another_shape() {
+    let folder = TempDir::new().expect("a folder");
+    let finer = format!("{FROM_FILE}\ndegree = [3, 2]\nsubdivisions = [4, 2]");
+    let resolved = read(&folder, &finer, PATCH).unwrap_or_else(|error| panic!("{}", render(&error)));
+    let Some(Space::Patch(patch)) = &resolved.shapes.structure else { panic!("no patch") };
+    // The degree comes first: 4 cubic elements are as smooth as they can be.
+    assert_eq!(patch.control_points().len(), (4 + 3) * (2 + 2));
+    let [x, y] = patch.point(&[0.3, 0.6]);
+    assert!((x - 0.3).abs() < 1e-14 && (y + 0.02).abs() < 1e-14, "({x}, {y})");
+}
+
+#[test]
+fn a_degree_below_that_of_the_file_is_refused() {
+    let quadratic = PATCH
+        .replace("degrees = [1, 1]", "degrees = [1, 2]")
+        .replace("[0, 0, 1, 1]]", "[0, 0, 0, 1, 1, 1]]")
+        .replace("[0, 0], [1, 0]]", "[0, -0.02], [1, -0.02], [0, 0], [1, 0]]");
+    assert_snapshot!(shaped(&format!("{FROM_FILE}\ndegree = [2, 1]"), &quadratic), @r#"
+     × patch.toml has the degree 2 along side 1, not 1
+       ╭─[scene.toml:28:8]
+    27 │ [structure.geometry.spline]
+    28 │ file = "patch.toml"
+       ·        ──────┬─────
+       ·              ╰── this patch
+    29 │ degree = [2, 1]
+       ╰────
+     help: a degree can be raised, not lowered: give 2 or more
+    "#);
 }
 
 #[test]

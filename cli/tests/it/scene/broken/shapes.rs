@@ -475,3 +475,42 @@ fn a_force_on_an_unknown_group_is_refused() {
      help: did you mean `bottom`?
     "#);
 }
+
+#[test]
+fn one_of_several_unknown_groups_is_named() {
+    let probed = on_file() + "\n[output.probes]\nout = { fluid_flow_rate = [\"left\", \"rigth\"] }\n";
+    let shown = message(&probed, &MeshText::square().write());
+    assert!(
+        shown.contains("no boundary group `rigth`") && shown.contains("did you mean `right`?"),
+        "{shown}"
+    );
+}
+
+#[test]
+fn a_line_that_leaves_the_mesh_is_refused() {
+    let line = "cut = { fluid_extremes = { from = [0.5, 0], to = [0.5, 1.5] } }";
+    let shown = message(&format!("{}\n[output.probes]\n{line}\n", on_file()), &MeshText::square().write());
+    assert!(
+        shown.contains("probe `cut` lies outside") && shown.contains("no triangle holds (0.5, 1.5) m"),
+        "{shown}"
+    );
+}
+
+#[test]
+fn a_mesh_that_is_refined_has_four_times_the_triangles() {
+    let folder = TempDir::new().expect("a folder");
+    fs::write(folder.path().join("tank.msh"), MeshText::square().write()).expect("a file");
+    let refined = |key: &str| {
+        let text = on_file().replace("\n[fluid.boundary]", &format!("{key}\n[fluid.boundary]"));
+        read_in(folder.path(), "scene.toml", &text, &[]).map_err(|error| render(&error))
+    };
+    let fine = refined("refine = 2\n").expect("a sound scene");
+    assert_eq!(fine.shapes.fluid.expect("a mesh").cells().len(), 16 * 8);
+    let off =
+        refined("refine = 1\ncircles.left = { center = [0.5, 0.5], radius = 0.6 }\n").expect_err("a square");
+    assert!(off.contains("off the circle of that group") && off.contains("`left`"), "{off}");
+    let unknown = refined("circles.arc = { center = [0, 0], radius = 1 }\n").expect_err("no such group");
+    assert!(unknown.contains("no boundary group `arc`"), "{unknown}");
+    let many = refined("refine = 40\n").expect_err("more triangles than memory");
+    assert!(many.contains("would not fit any machine"), "{many}");
+}

@@ -1,21 +1,36 @@
 //! Whatever bytes a gmsh file holds, reading it gives a document or an error with a hint; and whatever the document
-//! holds, making a mesh of it gives a mesh or an error with a hint.
+//! holds, making a mesh of it gives a mesh or an error with a hint. Neither needs much more memory than the file is large.
 
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 use partita_mesh::gmsh::{ElementBlock, GmshFile};
+use partita_mesh::quality::measures;
+
+/// Bytes that may be in use at once beside the file: some, and so many for each of its own.
+const CONSTANT: usize = 64 * 1024;
+const TO_READ: usize = 64;
+const TO_CONVERT: usize = 256;
 
 fuzz_target!(|bytes: &[u8]| {
-    match GmshFile::parse(bytes) {
+    match within(CONSTANT + TO_READ * bytes.len(), || GmshFile::parse(bytes)) {
         Ok(file) => {
             check_document(&file);
-            check_mesh::<2>(&file);
-            check_mesh::<3>(&file);
+            let limit = CONSTANT + TO_CONVERT * bytes.len();
+            check_mesh::<2>(file.clone(), limit);
+            check_mesh::<3>(file, limit);
         }
         Err(error) => check_message(&error.to_string()),
     }
 });
+
+/// Runs an action that may not have more than `limit` bytes allocated at any time.
+fn within<T>(limit: usize, action: impl FnOnce() -> T) -> T {
+    let mut outcome = None;
+    let used = allocation_counter::measure(|| outcome = Some(action())).bytes_max;
+    assert!(used <= limit as u64, "{used} bytes in use, at most {limit} are reasonable");
+    outcome.expect("the action has run")
+}
 
 /// What [`GmshFile`] promises of its parts.
 fn check_document(file: &GmshFile) {
@@ -31,10 +46,11 @@ fn check_document(file: &GmshFile) {
     assert!(file.blocks.is_sorted_by(|a, b| order(a) < order(b)), "two blocks share kind and groups");
 }
 
-fn check_mesh<const D: usize>(file: &GmshFile) {
-    match file.clone().into_mesh::<D>() {
+fn check_mesh<const D: usize>(file: GmshFile, limit: usize) {
+    match within(limit, || file.into_mesh::<D>()) {
         Ok(mesh) => {
             assert!(mesh.cells().nodes.iter().all(|&node| node < mesh.points().len()));
+            assert!(measures(mesh.points(), mesh.cells()).iter().all(|&x| x > 0.0 && x.is_finite()));
             assert!(mesh.groups().iter().all(|group| !group.facets.is_empty()));
         }
         Err(error) => check_message(&error.to_string()),

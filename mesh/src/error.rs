@@ -116,6 +116,16 @@ pub enum MeshError {
         /// Its signed area or volume.
         measure: f64,
     },
+    /// A cell so large that its measure overflows.
+    #[error(
+        "cell {cell} at {centroid} is too large for its measure to be a finite number\nhint: check the coordinates and their unit"
+    )]
+    TooLarge {
+        /// The cell.
+        cell: usize,
+        /// Its centroid.
+        centroid: Place,
+    },
     /// A node that no cell uses; no equation would determine its values.
     #[error("node {node} at {place} belongs to no cell\nhint: remove it from the mesh")]
     UnusedNode {

@@ -177,6 +177,10 @@ fn check_measures<const D: usize>(points: &[[f64; D]], cells: &Cells) -> Result<
         let vertices = simplex::vertices(points, nodes);
         let vertices = &vertices[..=D];
         let measure = simplex::measure(vertices);
+        // An overflow may leave no number at all, which compares with nothing.
+        if !measure.is_finite() {
+            return Err(MeshError::TooLarge { cell, centroid: simplex::centroid(vertices).into() });
+        }
         let edges = (D * (D + 1) / 2) as f64;
         let mean_edge = (simplex::squared_edges(vertices) / edges).sqrt();
         let smallest = (0..D).fold(FLAT, |product, _| product * mean_edge);

@@ -98,6 +98,20 @@ fn flat_cell() {
 }
 
 #[test]
+fn cell_beyond_all_numbers() {
+    let far = |corner| build(vec![[0.0, 0.0], [1e200, 1e200], corner], vec![0, 1, 2], vec![]);
+    // In one case inf - inf, in the other inf.
+    for corner in [[1e199, 1e200], [0.0, 1e200]] {
+        let error = far(corner).expect_err("an area that overflows");
+        assert!(matches!(error, MeshError::TooLarge { cell: 0, .. }), "{error}");
+    }
+    insta::assert_snapshot!(far([1e199, 1e200]).expect_err("no number"), @r"
+    cell 0 at (3.66667e199, 6.66667e199) m is too large for its measure to be a finite number
+    hint: check the coordinates and their unit
+    ");
+}
+
+#[test]
 fn cell_that_names_a_node_twice_is_flat() {
     let (points, _) = square();
     let error = build(points, vec![0, 1, 2, 0, 3, 3], vec![]).expect_err("a node twice");

@@ -61,7 +61,7 @@ fn section(text: &mut String, case: &Case, rows: &[&Row]) {
     levels.sort_by_key(|row| row.level);
     levels.dedup_by_key(|row| row.level);
     let cells = |cell: &dyn Fn(&Row) -> String| {
-        levels.iter().map(|row| format!(" {} |", cell(row))).collect::<String>()
+        levels.iter().map(|row| cell(row)).fold(String::new(), |line, cell| line + " " + &cell + " |")
     };
     put(text, &format!("| | reference |{}", cells(&|row| format!("level {}", row.level))));
     put(text, &format!("|---|---|{}", "---|".repeat(levels.len())));

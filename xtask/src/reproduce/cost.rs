@@ -52,7 +52,7 @@ pub(crate) fn spearman(a: &[f64], b: &[f64]) -> Option<f64> {
     assert_eq!(a.len(), b.len(), "values come in pairs");
     let (a, b) = (ranks(a), ranks(b));
     // Ranks of n values sum to n (n + 1) / 2 whatever the ties.
-    let mean = (a.len() as f64 + 1.0) / 2.0;
+    let mean = f64::midpoint(a.len() as f64, 1.0);
     let product =
         |x: &[f64], y: &[f64]| -> f64 { x.iter().zip(y).map(|(x, y)| (x - mean) * (y - mean)).sum() };
     let scale = (product(&a, &a) * product(&b, &b)).sqrt();
@@ -63,7 +63,7 @@ pub(crate) fn spearman(a: &[f64], b: &[f64]) -> Option<f64> {
 fn ranks(values: &[f64]) -> Vec<f64> {
     let below = |value: f64| values.iter().filter(|other| **other < value).count() as f64;
     let equal = |value: f64| values.iter().filter(|other| **other <= value).count() as f64 - below(value);
-    values.iter().map(|&value| below(value) + (equal(value) + 1.0) / 2.0).collect()
+    values.iter().map(|&value| below(value) + f64::midpoint(equal(value), 1.0)).collect()
 }
 
 #[cfg(test)]

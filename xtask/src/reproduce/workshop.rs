@@ -111,7 +111,8 @@ impl<'a> Workshop<'a> {
             .into_iter()
             .filter(|(name, _)| name != "README.md")
             .map(|(name, bytes)| format!("{name} {:016x}\n", checksum(&bytes)))
-            .collect::<String>();
+            .collect::<Vec<_>>()
+            .concat();
         Ok(format!("binary {:016x}\n{scene}{}\n", self.revision, run.arguments().join(" ")))
     }
 

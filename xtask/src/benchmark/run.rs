@@ -254,6 +254,8 @@ impl Probes {
 
 #[cfg(test)]
 mod tests {
+    use std::fmt::Write as _;
+
     use super::*;
 
     #[test]
@@ -270,7 +272,7 @@ mod tests {
         for step in 1..=400 {
             let time = 0.01 * f64::from(step);
             let value = -0.06 - 0.065 * (std::f64::consts::TAU * 1.25 * time).sin();
-            text += &format!("{step},{time},{value}\n");
+            writeln!(text, "{step},{time},{value}").expect("a String takes any text");
         }
         let probes = Probes::parse(&text);
         let take = |take, column: &str| {

@@ -81,7 +81,7 @@ mod tests {
         let near = |value: Option<f64>, expected: f64| {
             assert!((value.expect("values vary") - expected).abs() < 1e-14, "{value:?}");
         };
-        near(spearman(&a, &a.map(|x| f64::exp(x))), 1.0);
+        near(spearman(&a, &a.map(f64::exp)), 1.0);
         near(spearman(&a, &a.map(|x| -x * x)), -1.0);
         // 1 - 6 sum d^2 / (n (n^2 - 1)) with d = (0, 0, 0, 1, 1).
         near(spearman(&a, &[1.0, 2.0, 3.0, 5.0, 4.0]), 0.9);

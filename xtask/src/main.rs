@@ -3,12 +3,21 @@
 //! Nothing here depends on a solver crate: what is heavy is started as the `partita` binary, and its `summary.json`
 //! is read back.
 
+#![expect(
+    clippy::format_push_string,
+    reason = "pages are put together once, where `write!` asks what to do when a String refuses text"
+)]
+
 mod benchmark;
+mod beyond;
 mod ci;
 mod csv;
+mod infer;
 mod options;
 mod picture;
 mod reproduce;
+mod sensitivity;
+mod stretch;
 mod svg;
 mod task;
 mod tidy;
@@ -33,6 +42,10 @@ Tasks:
   benchmark [CASE]...    run published benchmarks on all levels and compare with docs/data/benchmarks.csv
     --level L            only this level, 1 is the coarsest
     --mode MODE          check (default), or write: keep the results, draw docs/benchmarks.md and its pictures
+  infer                  search the values that the paper does not give, as paper/inference.md says; options
+                         --mode, --jobs and --fresh as above
+  sensitivity            judge the claims on cases with other values, write paper/results/sensitivity.csv
+  beyond                 run tables 1 and 2 with quadratic convergence, write docs/beyond-the-paper.md
   ci [--skip NAME]...    run all that CI runs, in its order: test, fmt, clippy, doc, tidy, reproduce
 ";
 
@@ -54,6 +67,9 @@ fn dispatch(arguments: &[&str]) -> Result<(), TaskError> {
         ["tidy"] => tidy::run(root),
         ["reproduce", options @ ..] => reproduce::run(root, &Options::parse("reproduce", options)?),
         ["benchmark", options @ ..] => benchmark::run(root, options),
+        ["infer", options @ ..] => infer::run(root, &Options::parse("infer", options)?),
+        ["sensitivity", options @ ..] => sensitivity::run(root, &Options::parse("sensitivity", options)?),
+        ["beyond", options @ ..] => beyond::run(root, &Options::parse("beyond", options)?),
         ["ci", options @ ..] => ci::run(root, &skipped(options)?),
         ["help" | "--help" | "-h"] => {
             print!("{USAGE}");

@@ -49,6 +49,14 @@ impl Case {
         };
         product(&[1, 2, 3, 4, 5], structure)
     }
+
+    /// The scene's key of the solid's density and the two densities the scenes have \[kg/m3\], fluid first.
+    pub(crate) fn fluid_density(self) -> f64 {
+        match self {
+            Self::Tank => 1000.0,
+            Self::Beam => 1.0,
+        }
+    }
 }
 
 /// All pairs of these limits, "to convergence" added to both.

@@ -13,6 +13,7 @@ use super::heat_map;
 use super::published::Published;
 use super::results;
 use super::substitutes::{Substitute, of_scene};
+use crate::sensitivity;
 use crate::task::{self, TaskError};
 
 const FILE: &str = "docs/reproduction.md";
@@ -25,6 +26,8 @@ pub(crate) struct Page {
     judged: Vec<Judged>,
     /// Of both scenes.
     substitutes: [Vec<Substitute>; 2],
+    /// The section on the sensitivity set.
+    sensitivity: String,
     remarks: String,
 }
 
@@ -41,7 +44,8 @@ impl Page {
             *substitutes = of_scene(&task::read(&root.join("scenes").join(case.scene()).join("scene.toml"))?);
         }
         let judged = judge(&ours);
-        Ok(Self { published, ours, judged, substitutes, remarks: task::read(&root.join(REMARKS))? })
+        let (sensitivity, remarks) = (sensitivity::section(root)?, task::read(&root.join(REMARKS))?);
+        Ok(Self { published, ours, judged, substitutes, sensitivity, remarks })
     }
 
     pub(crate) fn judged(&self) -> &[Judged] {
@@ -70,6 +74,7 @@ impl Page {
         }
         text += &tables::adaptive_section(&self.ours, &self.published);
         text += &sections::claims(&self.judged);
+        text += &self.sensitivity;
         text += &sections::cost(&self.ours);
         text += &sections::snapshots();
         text += &sections::substituted(&self.substitutes);

@@ -17,7 +17,7 @@ pub(crate) fn folder(root: &Path) -> PathBuf {
 }
 
 /// Facts about a case that nobody ran.
-fn nothing(case: Case) -> Facts {
+pub(crate) fn nothing(case: Case) -> Facts {
     Facts {
         case,
         grid: super::counts::Grid::default(),
@@ -49,13 +49,13 @@ pub(crate) fn read(root: &Path) -> Result<[Facts; 2], TaskError> {
         if let Some(path) = present(&format!("table{}.csv", facts.case.table())) {
             for row in Csv::read(&path)?.rows() {
                 let limits = Limits { fluid: row.value("n_f")?, structure: row.value("n_s")? };
-                facts.grid.cells.insert(limits, counts(row)?);
+                facts.grid.cells.insert(limits, counts_in(row)?);
             }
         }
     }
     if let Some(path) = present("table3.csv") {
         for row in Csv::read(&path)?.rows() {
-            ours[row.value::<Case>("case")? as usize].adaptive.insert(row.value("setting")?, counts(row)?);
+            ours[row.value::<Case>("case")? as usize].adaptive.insert(row.value("setting")?, counts_in(row)?);
         }
     }
     if let Some(path) = present("observations.csv") {
@@ -143,7 +143,8 @@ fn values(facts: &Facts, setting: Setting, counts: Option<Counts>, published: &F
     ours.into_iter().chain([wall]).chain(theirs).chain(deviations).collect()
 }
 
-fn counts(row: Row<'_>) -> Result<Option<Counts>, TaskError> {
+/// The counts in a row, if its run reached its end.
+pub(crate) fn counts_in(row: Row<'_>) -> Result<Option<Counts>, TaskError> {
     let count = |count: Count| row.optional(count.column());
     let (coupling, fluid, structure) =
         (count(Count::Coupling)?, count(Count::Fluid)?, count(Count::Structure)?);

@@ -1,6 +1,6 @@
 //! The runs that the facts about a case need, and the facts they give.
 
-use super::case::Case;
+use super::case::{Case, product};
 use super::facts::{Cost, Facts, Relaxation};
 use super::run::{Outcome, Run};
 use super::setting::{Adaptive, Limits, Setting};
@@ -32,6 +32,12 @@ impl Study {
             relaxation: false,
             ..Self::of_table(case)
         }
+    }
+
+    /// Limits 1, 2 and inf of both fields and table 3: the least that every claim can be judged on.
+    pub(crate) fn small(case: Case, changes: Vec<String>) -> Self {
+        let limits = product(&[1, 2], &[1, 2]);
+        Self { limits, adaptive: Adaptive::ALL.to_vec(), changes, ..Self::of_table(case) }
     }
 
     fn settings(&self) -> impl Iterator<Item = Setting> {

@@ -61,6 +61,11 @@ impl<'a> Workshop<'a> {
         Self { binary: self.binary.clone(), folder: self.folder.clone(), jobs, remember: false, ..*self }
     }
 
+    /// A folder for what runs need beside the scene.
+    pub(crate) fn supplies(&self) -> PathBuf {
+        self.folder.join("supplies")
+    }
+
     /// Does the runs, or remembers them, and returns their outcomes in the order of `runs`.
     ///
     /// Which runs go at the same time and in which order they end changes no outcome.
@@ -107,12 +112,12 @@ impl<'a> Workshop<'a> {
 
     /// Everything that decides about the outcome of a run.
     fn key(&self, run: &Run) -> Result<String, TaskError> {
-        let scene = task::files_of(&self.root.join("scenes").join(run.case.scene()))?
-            .into_iter()
-            .filter(|(name, _)| name != "README.md")
-            .map(|(name, bytes)| format!("{name} {:016x}\n", checksum(&bytes)))
-            .collect::<Vec<_>>()
-            .concat();
+        let mut scene = String::new();
+        for (name, bytes) in task::files_of(&self.root.join("scenes").join(run.case.scene()))? {
+            if matches!(name.rsplit('.').next(), Some("toml" | "msh")) {
+                scene += &format!("{name} {:016x}\n", checksum(&bytes));
+            }
+        }
         Ok(format!("binary {:016x}\n{scene}{}\n", self.revision, run.arguments().join(" ")))
     }
 

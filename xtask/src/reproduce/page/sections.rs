@@ -7,7 +7,6 @@ use crate::reproduce::counts::Count;
 use crate::reproduce::facts::{Cost, Facts};
 use crate::reproduce::markdown::{prose_table, table};
 use crate::reproduce::substitutes::Substitute;
-use std::fmt::Write as _;
 
 /// How many claims hold, and which do not.
 pub(super) fn held(judged: &[Judged]) -> String {
@@ -20,7 +19,7 @@ pub(super) fn held(judged: &[Judged]) -> String {
         count(None)
     );
     for judged in judged.iter().filter(|judged| judged.holds == Some(false)) {
-        write!(text, " {} fails.", judged.claim.id).expect("a String takes any text");
+        text += &format!(" {} fails.", judged.claim.id);
     }
     text + "\n"
 }
@@ -84,11 +83,13 @@ pub(super) fn cost(ours: &[Facts; 2]) -> String {
     let header = ["rank correlation of wall time with", "Newton total", "fluid", "weighted sum", "coupling"];
     let rows: Vec<Vec<String>> =
         measured.iter().map(|(case, costs, prices)| correlations(*case, costs, prices)).collect();
-    write!(text, "\nSpearman's rank correlation over each table's settings. The weighted sum counts an iteration of each field \
+    text += &format!(
+        "\nSpearman's rank correlation over each table's settings. The weighted sum counts an iteration of each field \
          by its price above.\n\n{}",
-        table(&header, &rows)).expect("a String takes any text");
+        table(&header, &rows)
+    );
     for (case, costs, prices) in &measured {
-        write!(text, "\n{}\n", answer(*case, costs, prices)).expect("a String takes any text");
+        text += &format!("\n{}\n", answer(*case, costs, prices));
     }
     text + &times(ours)
 }
@@ -162,7 +163,7 @@ fn times(ours: &[Facts; 2]) -> String {
                 std::iter::once(fluid.to_string()).chain(row).collect()
             })
             .collect();
-        write!(text, "\n{}", table(&header, &rows)).expect("a String takes any text");
+        text += &format!("\n{}", table(&header, &rows));
     }
     text + &format!(
         "\nAll {runs} runs together: {wall:.0} s one after the other, {cpu:.0} s of processor time.\n"
@@ -178,8 +179,7 @@ pub(super) fn snapshots() -> String {
         (Case::Tank, "The tank at t = 0.2 s: mesh, pressure, and the deformed bottom"),
         (Case::Beam, "The beam at t = 0.25 s: mesh, speed, and the deformed beam"),
     ] {
-        write!(text, "\n![{what}]({})\n\n{what}.\n", crate::picture::path(case))
-            .expect("a String takes any text");
+        text += &format!("\n![{what}]({})\n\n{what}.\n", crate::picture::path(case));
     }
     text
 }
@@ -196,13 +196,11 @@ pub(super) fn substituted(substitutes: &[Vec<Substitute>; 2]) -> String {
                 vec![format!("`{key}`"), format!("`{value}`"), comment.clone()]
             })
             .collect();
-        write!(
-            text,
+        text += &format!(
             "\n### {}\n\n{}",
             case.scene(),
             prose_table(&["key", "value", "remark of the scene"], &rows)
-        )
-        .expect("a String takes any text");
+        );
     }
     text
 }

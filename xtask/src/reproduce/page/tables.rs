@@ -7,7 +7,6 @@ use crate::reproduce::facts::Facts;
 use crate::reproduce::markdown::{percent, table};
 use crate::reproduce::published::Published;
 use crate::reproduce::setting::{Adaptive, Limits, Setting};
-use std::fmt::Write as _;
 
 /// Deviations up to these parts are counted.
 const CLASSES: [f64; 3] = [0.05, 0.10, 0.25];
@@ -42,13 +41,11 @@ pub(super) fn grid_section(facts: &Facts, published: &Published) -> String {
                 std::iter::once(fluid.to_string()).chain(cells).collect()
             })
             .collect();
-        write!(text, "\n### {}\n\n{}", count.title(), table(&header, &rows))
-            .expect("a String takes any text");
+        text += &format!("\n### {}\n\n{}", count.title(), table(&header, &rows));
     }
     text += &footnote(published, case);
     for count in [Count::Coupling, Count::Newton] {
-        write!(text, "\n![{}, {}]({})\n", title(case), count.title(), heat_map_path(case, count))
-            .expect("a String takes any text");
+        text += &format!("\n![{}, {}]({})\n", title(case), count.title(), heat_map_path(case, count));
     }
     text
 }

@@ -1,0 +1,167 @@
+//! The search space of `paper/inference.md`.
+
+use std::path::Path;
+
+use crate::reproduce::case::Case;
+use crate::stretch;
+use crate::task::TaskError;
+
+/// One value of something that is searched.
+#[derive(Debug, Clone)]
+pub(crate) struct Choice {
+    /// As the results call it.
+    pub(crate) label: String,
+    /// Keys of the scene.
+    pub(crate) keys: Vec<String>,
+}
+
+impl Choice {
+    fn new(label: impl Into<String>, keys: &[&str]) -> Self {
+        Self { label: label.into(), keys: keys.iter().map(|&key| key.to_owned()).collect() }
+    }
+}
+
+/// A point of the search space.
+#[derive(Debug, Clone)]
+pub(crate) struct Configuration {
+    pub(crate) choices: Vec<Choice>,
+}
+
+impl Configuration {
+    pub(crate) fn label(&self) -> String {
+        self.choices.iter().map(|choice| choice.label.as_str()).collect::<Vec<_>>().join("; ")
+    }
+
+    pub(crate) fn keys(&self) -> Vec<String> {
+        self.choices.iter().flat_map(|choice| choice.keys.clone()).collect()
+    }
+
+    pub(crate) fn with(&self, choice: &Choice) -> Self {
+        let mut choices = self.choices.clone();
+        choices.push(choice.clone());
+        Self { choices }
+    }
+}
+
+/// The bottom of the tank or the beam with this thickness \[m\]; meshes go to `folder`.
+pub(crate) fn thickness(root: &Path, folder: &Path, case: Case, value: f64) -> Result<Choice, TaskError> {
+    let key = |name: &str, [x, y]: [f64; 2]| format!("structure.geometry.rectangle.{name}=[{x:.3},{y:.3}]");
+    let keys = match case {
+        Case::Tank => vec![key("origin", [0.0, -value]), key("size", [1.0, value])],
+        Case::Beam => {
+            let mesh = stretch::channel(root, folder, value)?;
+            vec![
+                key("origin", [3.0 - value / 2.0, 0.0]),
+                key("size", [value, 1.0]),
+                format!("fluid.mesh.gmsh.file=\"{}\"", mesh.display()),
+            ]
+        }
+    };
+    Ok(Choice { label: format!("h {value}"), keys })
+}
+
+pub(crate) fn young(value: f64) -> Choice {
+    let key = format!("structure.material.saint_venant_kirchhoff.young_modulus={value:e}");
+    Choice { label: format!("E {value:e}"), keys: vec![key] }
+}
+
+pub(crate) fn viscosity(value: f64) -> Choice {
+    Choice { label: format!("mu {value}"), keys: vec![format!("fluid.viscosity={value:?}")] }
+}
+
+/// The grid of the first stage.
+pub(crate) fn grid(root: &Path, folder: &Path, case: Case) -> Result<Vec<Configuration>, TaskError> {
+    let thick = |values: [f64; 3]| -> Result<Vec<Choice>, TaskError> {
+        values.into_iter().map(|value| thickness(root, folder, case, value)).collect()
+    };
+    let factors: Vec<Vec<Choice>> = match case {
+        Case::Tank => vec![
+            thick([0.02, 0.05, 0.1])?,
+            [1e6, 2.5e6, 5e6, 1e7].map(young).to_vec(),
+            [100.0, 200.0, 400.0].map(viscosity).to_vec(),
+        ],
+        Case::Beam => vec![
+            thick([0.05, 0.06, 0.08])?,
+            [1.4e7, 2.8e7, 5.6e7].map(young).to_vec(),
+            [0.5, 1.0].map(viscosity).to_vec(),
+            vec![
+                Choice::new("full inflow", &[]),
+                Choice::new(
+                    "inflow rising 0.1 s",
+                    &["fluid.boundary.inflow={ velocity = [\"2.5*y*(4 - y)*min(t/0.1, 1)\", 0] }"],
+                ),
+            ],
+        ],
+    };
+    let start = vec![Configuration { choices: Vec::new() }];
+    Ok(factors.iter().fold(start, |configurations, factor| {
+        configurations.iter().flat_map(|old| factor.iter().map(|choice| old.with(choice))).collect()
+    }))
+}
+
+/// The variations of the second stage.
+pub(crate) fn variations(case: Case) -> Vec<Choice> {
+    let radius = |value: f64| {
+        let key = format!("structure.time_scheme.generalized_alpha.spectral_radius={value:?}");
+        Choice { label: format!("spectral radius {value}"), keys: vec![key] }
+    };
+    let bounds = |fluid: f64, structure: f64| {
+        let key = |field: &str, value: f64| format!("{field}.newton.tolerance.absolute={value:e}");
+        Choice {
+            label: format!("bounds {fluid:e}, {structure:e}"),
+            keys: vec![key("fluid", fluid), key("structure", structure)],
+        }
+    };
+    let imvls =
+        |label: &str, key: &str| Choice::new(label, &[&format!("coupling.acceleration.iqn_imvls.{key}")]);
+    let mut choices = vec![
+        Choice::new("tangent frozen_tau", &["fluid.tangent=frozen_tau"]),
+        Choice::new("tangent full", &["fluid.tangent=full"]),
+        Choice::new("fluid checks before", &["fluid.newton.check=before"]),
+    ];
+    let bound = match case {
+        Case::Tank => 5e-9,
+        Case::Beam => 3e-7,
+    };
+    choices.extend([
+        bounds(bound / 5.0, bound / 5.0),
+        bounds(bound * 5.0, bound * 5.0),
+        bounds(bound, bound * 5.0),
+        bounds(bound, bound * 25.0),
+    ]);
+    match case {
+        Case::Tank => choices.extend([
+            Choice::new("constant predictor", &["coupling.predictor=constant"]),
+            radius(0.5),
+            radius(0.8),
+            imvls("history 1", "history_steps=1"),
+            imvls("history 5", "history_steps=5"),
+            imvls("filter 1e-2", "filter.qr3=1e-2"),
+            imvls("first iteration with history", "relax_first_iteration=false"),
+        ]),
+        Case::Beam => choices.extend([
+            Choice::new("linear predictor", &["coupling.predictor=linear"]),
+            radius(0.0),
+            radius(0.8),
+            radius(1.0),
+        ]),
+    }
+    choices
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::task::workspace_root;
+
+    #[test]
+    fn both_grids_have_thirty_six_points() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for case in Case::ALL {
+            let grid = grid(workspace_root(), folder.path(), case).expect("the scene's mesh is there");
+            let mut labels: Vec<String> = grid.iter().map(Configuration::label).collect();
+            labels.dedup();
+            assert_eq!(labels.len(), 36);
+        }
+    }
+}

@@ -57,6 +57,7 @@ fn draw(
     chart
         .configure_mesh()
         .light_line_style(WHITE)
+        .x_labels(5)
         .x_desc("unknowns")
         .y_desc("error [%]")
         .x_label_formatter(&|x| plain(*x))

@@ -6,6 +6,7 @@
 use libfuzzer_sys::fuzz_target;
 use partita_mesh::gmsh::{ElementBlock, GmshFile};
 use partita_mesh::quality::measures;
+use partita_mesh::solid::reference::quadrature;
 
 /// Bytes that may be in use at once beside the file: some, and so many for each of its own.
 const CONSTANT: usize = 64 * 1024;
@@ -18,7 +19,8 @@ fuzz_target!(|bytes: &[u8]| {
             check_document(&file);
             let limit = CONSTANT + TO_CONVERT * bytes.len();
             check_mesh::<2>(file.clone(), limit);
-            check_mesh::<3>(file, limit);
+            check_mesh::<3>(file.clone(), limit);
+            check_solid_mesh(file, limit);
         }
         Err(error) => check_message(&error.to_string()),
     }
@@ -52,6 +54,21 @@ fn check_mesh<const D: usize>(file: GmshFile, limit: usize) {
             assert!(mesh.cells().nodes.iter().all(|&node| node < mesh.points().len()));
             assert!(measures(mesh.points(), mesh.cells()).iter().all(|&x| x > 0.0 && x.is_finite()));
             assert!(mesh.groups().iter().all(|group| !group.facets.is_empty()));
+        }
+        Err(error) => check_message(&error.to_string()),
+    }
+}
+
+fn check_solid_mesh(file: GmshFile, limit: usize) {
+    match within(limit, || file.into_solid_mesh()) {
+        Ok(mesh) => {
+            for (cell, (xi, _)) in (0..mesh.cells().len())
+                .flat_map(|cell| quadrature(mesh.cells().kind).into_iter().map(move |q| (cell, q)))
+            {
+                let [[a, b], [c, d]] = mesh.map(cell, xi).jacobian;
+                assert!(a * d - b * c > 0.0, "cell {cell} is folded");
+            }
+            assert!(mesh.groups().iter().all(|group| !group.edges.is_empty()));
         }
         Err(error) => check_message(&error.to_string()),
     }

@@ -123,7 +123,7 @@ pub enum MeshError {
     TooLarge {
         /// The cell.
         cell: usize,
-        /// Its centroid.
+        /// Its centroid, or another place in it.
         centroid: Place,
     },
     /// A node that no cell uses; no equation would determine its values.

@@ -182,6 +182,10 @@ fn check_determinants<const D: usize>(points: &[[f64; D]], cells: &Cells) -> Res
         for &(xi, _) in &rule {
             let CellMap { place, jacobian, .. } = map(points, cells.kind, nodes, xi);
             let determinant = small::determinant(&jacobian);
+            // An overflow may leave no number at all, which compares with nothing.
+            if !determinant.is_finite() {
+                return Err(MeshError::TooLarge { cell, centroid: place.into() });
+            }
             // Round-off decides the sign of what is that small beside the edges of the cell.
             let size: f64 = jacobian.iter().flatten().map(|entry| entry * entry).sum();
             if determinant <= 1e-14 * size {

@@ -11,7 +11,7 @@ use crate::gmsh::{ALL, big_endian_prism, big_endian_prism_2, parse};
 const CONSTANT: u64 = 16 * 1024;
 const PER_BYTE: u64 = 40;
 
-/// Reads a file and makes both kinds of mesh from it when it can be read.
+/// Reads a file and makes every kind of mesh from it when it can be read.
 fn digest(bytes: &[u8]) -> bool {
     let mut readable = false;
     let info = measure(|| {
@@ -24,7 +24,8 @@ fn digest(bytes: &[u8]) -> bool {
     assert!(info.bytes_max <= most, "{} bytes allocated for a file of {}", info.bytes_max, bytes.len());
     if let Ok(file) = GmshFile::parse(bytes) {
         let _ = file.clone().into_mesh::<2>();
-        let _ = file.into_mesh::<3>();
+        let _ = file.clone().into_mesh::<3>();
+        let _ = file.into_solid_mesh();
     }
     readable
 }

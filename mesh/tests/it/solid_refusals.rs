@@ -2,7 +2,7 @@
 
 use partita_mesh::gmsh::{ElementBlock, ElementKind, GmshFile};
 use partita_mesh::solid::NamedEdges;
-use partita_mesh::{CellKind, Cells, SolidMesh};
+use partita_mesh::{CellKind, Cells, MeshError, SolidMesh};
 
 use crate::gmsh::{PLATE_4_TEXT, PRISM_4_TEXT, SECOND_ORDER, parse};
 use crate::solid::QUADRILATERALS_4;
@@ -76,6 +76,16 @@ fn cells_that_are_turned_over_are_folded() {
     cell 0 is folded near (0.166667, 0.166667) m: the determinant of its map is -1.000e0 m^2
     hint: corners run counter-clockwise, and the points on its edges stay near the middle; remesh there, or straighten the mesh
     ");
+}
+
+#[test]
+fn cells_beyond_all_numbers() {
+    // In one case the determinant is inf - inf, in the other inf.
+    for corner in [[1e199, 1e200], [0.0, 1e200]] {
+        let cells = Cells::new(CellKind::Triangle3, vec![0, 1, 2]);
+        let error = SolidMesh::new(vec![[0.0, 0.0], [1e200, 1e200], corner], cells, vec![]);
+        assert!(matches!(error, Err(MeshError::TooLarge { cell: 0, .. })), "{error:?}");
+    }
 }
 
 #[test]

@@ -45,7 +45,7 @@ fn is_small_and_alone(scene: &Scene) -> bool {
         Some(Geometry::Rectangle(patch)) => are_few(&patch.elements),
         Some(Geometry::Arc(patch)) => are_few(&patch.elements),
         Some(Geometry::Curve(patch)) => are_few(&patch.elements),
-        Some(Geometry::Spline(_)) => false,
+        Some(Geometry::Spline(_) | Geometry::Gmsh(_)) => false,
     };
     mesh && patch
 }

@@ -1,5 +1,6 @@
 //! Assembly, factorization and solution at the sizes of the small case and of a fine mesh.
 
+mod alternating;
 #[path = "../tests/it/grid.rs"]
 mod grid;
 
@@ -15,7 +16,7 @@ const FLOW: Flow = Flow { viscosity: 1e-3, dt: 1e-2, velocity: [1.0, 0.5] };
 /// The squares a side that give about 700 and about 30 000 equations.
 fn grids(method: Method) -> [usize; 2] {
     match method {
-        Method::Lu => [15, 99],
+        Method::Lu | Method::NodeBlockLu => [15, 99],
         Method::Llt | Method::Ldlt => [18, 122],
     }
 }
@@ -23,13 +24,13 @@ fn grids(method: Method) -> [usize; 2] {
 /// The system a method is meant for, on a grid of `n` x `n` squares.
 fn system(method: Method, n: usize) -> System {
     match method {
-        Method::Lu => grid::flow(n, FLOW, true),
+        Method::Lu | Method::NodeBlockLu => grid::flow(n, FLOW, true),
         Method::Llt | Method::Ldlt => grid::elasticity(n, 0.3, true),
     }
 }
 
 fn factorization(criterion: &mut Criterion) {
-    for method in [Method::Lu, Method::Llt, Method::Ldlt] {
+    for method in [Method::Lu, Method::NodeBlockLu, Method::Llt, Method::Ldlt] {
         for n in grids(method) {
             let System { pattern, values, .. } = system(method, n);
             let size = pattern.size();
@@ -75,7 +76,7 @@ fn assembly(criterion: &mut Criterion) {
 
 fn analysis(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("analysis");
-    for method in [Method::Lu, Method::Ldlt] {
+    for method in [Method::Lu, Method::NodeBlockLu, Method::Ldlt] {
         let System { pattern, .. } = system(method, grids(method)[1]);
         group.bench_function(BenchmarkId::new(format!("{method:?}"), pattern.size()), |bencher| {
             bencher.iter(|| Factor::new(method, black_box(&pattern)));
@@ -84,9 +85,30 @@ fn analysis(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// Refactor and solve with both methods for LU, in turns.
+fn against_faer(_: &mut Criterion) {
+    println!("equations  faer [ms]  node blocks [ms]  ratio   (refactor and solve)");
+    for (n, rounds) in [(15, 400), (41, 60), (99, 12), (182, 5)] {
+        let System { pattern, values, .. } = grid::flow(n, FLOW, true);
+        let work = |method| {
+            let mut factor = Factor::new(method, &pattern).expect("memory suffices");
+            let mut rhs = vec![1.0; pattern.size()];
+            let values = &values;
+            move || {
+                factor.refactor(black_box(values)).expect("the system is regular");
+                rhs.fill(1.0);
+                factor.solve(black_box(&mut rhs));
+            }
+        };
+        let medians = alternating::alternate(rounds, work(Method::Lu), work(Method::NodeBlockLu));
+        let (size, ratio) = (pattern.size(), medians.ratio());
+        println!("{size:9}  {:9.3}  {:16.3}  {ratio:5.2}", medians.first, medians.second);
+    }
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(20);
-    targets = assembly, factorization, analysis
+    targets = against_faer, assembly, factorization, analysis
 }
 criterion_main!(benches);

@@ -3,12 +3,15 @@
 mod cholesky;
 mod error;
 mod lu;
+mod multifrontal;
+mod node_block;
 mod trial;
 
 pub use error::FactorError;
 
 use cholesky::Cholesky;
 use lu::Lu;
+use node_block::NodeBlockLu;
 use serde::{Deserialize, Serialize};
 use trial::Trial;
 
@@ -20,6 +23,10 @@ use crate::Pattern;
 pub enum Method {
     /// P A Q = L U with partial pivoting, for any matrix.
     Lu,
+    /// L U over the nodes of the mesh, on a structure that is decided once, for matrices whose pivots can be found among
+    /// the dofs that are eliminated together: stabilized flow, elasticity. Much faster than [`Lu`](Self::Lu); takes
+    /// refuge in it where a factor turns out bad.
+    NodeBlockLu,
     /// A = L L^T, for symmetric positive definite matrices.
     Llt,
     /// A = L D L^T without pivoting, for symmetric matrices whose leading minors do not vanish.
@@ -33,8 +40,8 @@ pub enum Method {
 /// refactorization equals a fresh factorization of the same values.
 ///
 /// Nothing allocates after [`Factor::new`], with one exception: the numeric phase of faer's supernodal LU
-/// allocates its fronts in every [`refactor`](Self::refactor). (The matrix kernels also keep one packing buffer
-/// a thread, from their first use on.)
+/// ([`Method::Lu`], or a [fallback](Self::fallbacks) to it) allocates its fronts in every
+/// [`refactor`](Self::refactor). (The matrix kernels also keep one packing buffer a thread, from their first use on.)
 ///
 /// ```
 /// use partita_numerics::{Connectivity, DofMap, Factor, Method, Pattern};
@@ -62,6 +69,7 @@ enum Backend {
     /// No equations, nothing to do.
     Empty,
     Lu(Box<Lu>),
+    NodeBlockLu(Box<NodeBlockLu>),
     Cholesky(Box<Cholesky>),
 }
 
@@ -75,6 +83,7 @@ impl Factor {
         let backend = match method {
             _ if pattern.size() == 0 => Backend::Empty,
             Method::Lu => Backend::Lu(Box::new(Lu::new(pattern)?)),
+            Method::NodeBlockLu => Backend::NodeBlockLu(Box::new(NodeBlockLu::new(pattern)?)),
             Method::Llt => Backend::Cholesky(Box::new(Cholesky::new(cholesky::Kind::Llt, pattern)?)),
             Method::Ldlt => Backend::Cholesky(Box::new(Cholesky::new(cholesky::Kind::Ldlt, pattern)?)),
         };
@@ -118,12 +127,48 @@ impl Factor {
         assert_eq!(values.len(), self.pattern.nonzeros(), "values have the wrong length");
         self.is_ready = false;
         self.trial.inspect(&self.pattern, values)?;
-        self.backend.refactor(values)?;
-        let backend = &mut self.backend;
-        self.trial_error = self.trial.error(&self.pattern, values, |rhs| backend.solve(rhs));
+        match &self.backend {
+            Backend::NodeBlockLu(_) => self.refactor_or_fall_back(values)?,
+            Backend::Empty | Backend::Lu(_) | Backend::Cholesky(_) => {
+                self.backend.refactor(values)?;
+                self.try_out(values);
+            }
+        }
         trial::judge(self.trial_error)?;
         self.is_ready = true;
         Ok(())
+    }
+
+    /// Keeps the fast factor only if it is as good as round-off allows.
+    fn refactor_or_fall_back(&mut self, values: &[f64]) -> Result<(), FactorError> {
+        if self.backend.refactor(values).is_ok() {
+            self.try_out(values);
+            if self.trial_error < trial::SOUND
+                || self.trial.backward_error(&self.pattern, values) < trial::STABLE
+            {
+                return Ok(());
+            }
+        }
+        if let Backend::NodeBlockLu(lu) = &mut self.backend {
+            lu.fall_back(&self.pattern, values)?;
+        }
+        self.try_out(values);
+        Ok(())
+    }
+
+    fn try_out(&mut self, values: &[f64]) {
+        let backend = &mut self.backend;
+        self.trial_error = self.trial.error(&self.pattern, values, |rhs| backend.solve(rhs));
+    }
+
+    /// How often a factor of [`Method::NodeBlockLu`] turned out bad, or did not come about, so that [`Method::Lu`] had
+    /// to do the work. Each time costs several factorizations; a caller may want to record it.
+    #[must_use]
+    pub fn fallbacks(&self) -> usize {
+        match &self.backend {
+            Backend::NodeBlockLu(lu) => lu.fallbacks(),
+            Backend::Empty | Backend::Lu(_) | Backend::Cholesky(_) => 0,
+        }
     }
 
     /// The largest error with which the last factor reproduced a known solution, relative to the scale of
@@ -150,6 +195,7 @@ impl Backend {
         match self {
             Self::Empty => Ok(()),
             Self::Lu(lu) => lu.refactor(values),
+            Self::NodeBlockLu(lu) => lu.refactor(values),
             Self::Cholesky(cholesky) => cholesky.refactor(values),
         }
     }
@@ -158,6 +204,7 @@ impl Backend {
         match self {
             Self::Empty => {}
             Self::Lu(lu) => lu.solve(rhs),
+            Self::NodeBlockLu(lu) => lu.solve(rhs),
             Self::Cholesky(cholesky) => cholesky.solve(rhs),
         }
     }

@@ -74,6 +74,16 @@ fn lu_solves_without_allocating() {
 }
 
 #[test]
+fn node_block_lu_refactors_and_solves_without_allocating() {
+    let flow = Flow { viscosity: 1e-3, dt: 1e-2, velocity: [1.0, 0.5] };
+    // The last one is large enough for the kernels of faer.
+    for n in [1, 5, 15, 90] {
+        let system = grid::flow(n, flow, true);
+        assert_eq!(refactor_and_solve(Method::NodeBlockLu, &system), (0, 0), "{n} squares a side");
+    }
+}
+
+#[test]
 fn assembly_does_not_allocate() {
     let system = grid::elasticity(5, 0.3, true);
     let triangles = Connectivity::from_nodes(3, &grid::triangles(5), 2);

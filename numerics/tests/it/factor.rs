@@ -7,7 +7,10 @@ use proptest::prelude::*;
 use crate::grid::{self, Flow, System};
 use crate::random::{elements, to_dense, vector};
 
-const METHODS: [Method; 3] = [Method::Lu, Method::Llt, Method::Ldlt];
+const METHODS: [Method; 4] = [Method::Lu, Method::NodeBlockLu, Method::Llt, Method::Ldlt];
+
+/// Those that take unsymmetric matrices.
+const UNSYMMETRIC: [Method; 2] = [Method::Lu, Method::NodeBlockLu];
 
 const FLOW: Flow = Flow { viscosity: 1e-3, dt: 1e-2, velocity: [1.0, 0.5] };
 
@@ -53,7 +56,9 @@ proptest! {
         prop_assume!(pattern.size() > 0);
         let singular_values = to_dense(&pattern, &values).singular_values();
         prop_assume!(singular_values.min() > 1e-3 * singular_values.max());
-        prop_assert!(error(Method::Lu, &pattern, &values) < 1e-11);
+        for method in UNSYMMETRIC {
+            prop_assert!(error(method, &pattern, &values) < 1e-11, "{method:?}");
+        }
     }
 
     #[test]
@@ -77,7 +82,9 @@ proptest! {
 fn flow_and_elasticity_agree_with_dense_algebra() {
     for n in [1, 4, 9] {
         let flow = grid::flow(n, FLOW, true);
-        assert!(error(Method::Lu, &flow.pattern, &flow.values) < 1e-11);
+        for method in UNSYMMETRIC {
+            assert!(error(method, &flow.pattern, &flow.values) < 1e-11, "{method:?}");
+        }
         let body = grid::elasticity(n, 0.3, true);
         for method in METHODS {
             assert!(error(method, &body.pattern, &body.values) < 1e-11, "{method:?}");
@@ -101,7 +108,9 @@ fn refactored_equals_fresh(method: Method, first: &System, second: &System) {
 #[test]
 fn refactored_factor_equals_a_fresh_one_bit_for_bit() {
     let other = Flow { viscosity: 1.0, dt: 1e3, velocity: [0.1, -3.0] };
-    refactored_equals_fresh(Method::Lu, &grid::flow(12, FLOW, true), &grid::flow(12, other, true));
+    for method in UNSYMMETRIC {
+        refactored_equals_fresh(method, &grid::flow(12, FLOW, true), &grid::flow(12, other, true));
+    }
     for method in METHODS {
         let [first, second] = [0.3, 0.45].map(|poisson_ratio| grid::elasticity(20, poisson_ratio, true));
         refactored_equals_fresh(method, &first, &second);
@@ -178,7 +187,9 @@ fn small_singular_matrices_are_refused() {
     let counted = full([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]]);
     let laplacian = full([[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]]);
     for (pattern, values) in [&ones, &thirds, &counted, &laplacian] {
-        assert!(Factor::new(Method::Lu, pattern).unwrap().refactor(values).is_err());
+        for method in UNSYMMETRIC {
+            assert!(Factor::new(method, pattern).unwrap().refactor(values).is_err(), "{method:?}");
+        }
     }
     for (method, (pattern, values)) in
         [Method::Llt, Method::Ldlt].into_iter().flat_map(|method| [(method, &ones), (method, &laplacian)])
@@ -200,17 +211,17 @@ fn flows() -> Vec<Flow> {
 
 #[test]
 fn pressure_fixed_nowhere_is_singular_in_every_flow() {
-    for n in [3, 10, 40] {
+    for (n, method) in [3, 10, 40].into_iter().flat_map(|n| UNSYMMETRIC.map(|method| (n, method))) {
         for flow in flows() {
             let outcome = |is_fixed| {
                 let system = grid::flow(n, flow, is_fixed);
-                let mut factor = Factor::new(Method::Lu, &system.pattern).unwrap();
+                let mut factor = Factor::new(method, &system.pattern).unwrap();
                 factor.refactor(&system.values).map(|()| factor.trial_error())
             };
             let free = outcome(false);
             assert!(
                 matches!(free, Err(FactorError::Inaccurate { .. } | FactorError::Singular { .. })),
-                "{free:?} for {n}, {flow:?}"
+                "{method:?}: {free:?} for {n}, {flow:?}"
             );
             assert!(outcome(true).unwrap() < 1e-6, "{n}, {flow:?}");
         }

@@ -4,4 +4,5 @@ mod allocation;
 mod assembly;
 mod factor;
 mod grid;
+mod node_block;
 mod random;

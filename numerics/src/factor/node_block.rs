@@ -1,0 +1,49 @@
+//! The fast LU with the safe one behind it.
+
+use super::FactorError;
+use super::lu::Lu;
+use super::multifrontal::Multifrontal;
+use crate::Pattern;
+
+/// A multifrontal factor, and faer's LU from the first time on that it is needed.
+pub(super) struct NodeBlockLu {
+    fast: Multifrontal,
+    safe: Option<Box<Lu>>,
+    /// Whether the last factor is the safe one.
+    fell_back: bool,
+    fallbacks: usize,
+}
+
+impl NodeBlockLu {
+    pub(super) fn new(pattern: &Pattern) -> Result<Self, FactorError> {
+        Ok(Self { fast: Multifrontal::new(pattern)?, safe: None, fell_back: false, fallbacks: 0 })
+    }
+
+    /// Tries the fast way, whatever happened before: the outcome must not depend on earlier matrices.
+    pub(super) fn refactor(&mut self, values: &[f64]) -> Result<(), FactorError> {
+        self.fell_back = false;
+        self.fast.refactor(values)
+    }
+
+    /// Factors the same matrix the safe way.
+    pub(super) fn fall_back(&mut self, pattern: &Pattern, values: &[f64]) -> Result<(), FactorError> {
+        self.fell_back = true;
+        self.fallbacks += 1;
+        let safe = match &mut self.safe {
+            Some(safe) => safe,
+            None => self.safe.insert(Box::new(Lu::new(pattern)?)),
+        };
+        safe.refactor(values)
+    }
+
+    pub(super) fn fallbacks(&self) -> usize {
+        self.fallbacks
+    }
+
+    pub(super) fn solve(&mut self, rhs: &mut [f64]) {
+        match &mut self.safe {
+            Some(safe) if self.fell_back => safe.solve(rhs),
+            _ => self.fast.solve(rhs),
+        }
+    }
+}

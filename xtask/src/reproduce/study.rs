@@ -50,7 +50,10 @@ impl Study {
         let mut runs: Vec<Run> =
             self.settings().map(|setting| Run::new(self.case, setting).with(&self.changes)).collect();
         if self.relaxation && self.case == Case::Tank {
-            let relaxed = Run::new(self.case, Setting::Fixed(Limits::UNLIMITED)).with(&self.changes);
+            // A scene has one acceleration: options of the one that is replaced go with it.
+            let others = self.changes.iter().filter(|key| !key.starts_with("coupling.acceleration."));
+            let others: Vec<String> = others.cloned().collect();
+            let relaxed = Run::new(self.case, Setting::Fixed(Limits::UNLIMITED)).with(&others);
             runs.push(relaxed.with(&["coupling.acceleration.constant.relaxation=0.8".to_owned()]));
         }
         runs

@@ -65,7 +65,7 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<(), TaskError> {
     page::write(root)
 }
 
-/// Both stages, best first; configurations that fail come last.
+/// All stages, best first; configurations that fail come last.
 fn search(
     root: &Path,
     workshop: &Workshop<'_>,
@@ -80,6 +80,7 @@ fn search(
     let variations = space::variations(case);
     let second = centres.iter().flat_map(|centre| variations.iter().map(|choice| centre.with(choice)));
     tried.extend(attempt(workshop, case, 2, second.collect(), published)?);
+    tried.extend(attempt(workshop, case, 3, space::refined(case), published)?);
     sort(&mut tried);
     Ok(tried)
 }

@@ -69,6 +69,38 @@ pub(crate) fn viscosity(value: f64) -> Choice {
     Choice { label: format!("mu {value}"), keys: vec![format!("fluid.viscosity={value:?}")] }
 }
 
+/// All combinations of one choice of each factor.
+fn product(factors: &[Vec<Choice>]) -> Vec<Configuration> {
+    let start = vec![Configuration { choices: Vec::new() }];
+    factors.iter().fold(start, |configurations, factor| {
+        configurations.iter().flat_map(|old| factor.iter().map(|choice| old.with(choice))).collect()
+    })
+}
+
+/// An inflow of the beam's channel that rises linearly over so many seconds.
+fn rising_inflow(seconds: f64) -> Choice {
+    let profile = format!("2.5*y*(4 - y)*min(t/{seconds}, 1)");
+    let key = format!("fluid.boundary.inflow={{ velocity = [\"{profile}\", 0] }}");
+    Choice { label: format!("inflow rising {seconds} s"), keys: vec![key] }
+}
+
+/// The third stage, for the beam alone.
+pub(crate) fn refined(case: Case) -> Vec<Configuration> {
+    let bound = |field: &str, value: f64| {
+        let key = format!("{field}.newton.tolerance.absolute={value:e}");
+        Choice { label: format!("{field} bound {value:e}"), keys: vec![key] }
+    };
+    match case {
+        Case::Tank => Vec::new(),
+        Case::Beam => product(&[
+            [2.0e7, 2.4e7, 2.8e7].map(young).to_vec(),
+            [0.05, 0.1].map(rising_inflow).to_vec(),
+            [3e-7, 6e-7, 1.5e-6].map(|value| bound("structure", value)).to_vec(),
+            [1e-7, 3e-7].map(|value| bound("fluid", value)).to_vec(),
+        ]),
+    }
+}
+
 /// The grid of the first stage.
 pub(crate) fn grid(root: &Path, folder: &Path, case: Case) -> Result<Vec<Configuration>, TaskError> {
     let thick = |values: [f64; 3]| -> Result<Vec<Choice>, TaskError> {
@@ -84,19 +116,10 @@ pub(crate) fn grid(root: &Path, folder: &Path, case: Case) -> Result<Vec<Configu
             thick([0.05, 0.06, 0.08])?,
             [1.4e7, 2.8e7, 5.6e7].map(young).to_vec(),
             [0.5, 1.0].map(viscosity).to_vec(),
-            vec![
-                Choice::new("full inflow", &[]),
-                Choice::new(
-                    "inflow rising 0.1 s",
-                    &["fluid.boundary.inflow={ velocity = [\"2.5*y*(4 - y)*min(t/0.1, 1)\", 0] }"],
-                ),
-            ],
+            vec![Choice::new("full inflow", &[]), rising_inflow(0.1)],
         ],
     };
-    let start = vec![Configuration { choices: Vec::new() }];
-    Ok(factors.iter().fold(start, |configurations, factor| {
-        configurations.iter().flat_map(|old| factor.iter().map(|choice| old.with(choice))).collect()
-    }))
+    Ok(product(&factors))
 }
 
 /// The variations of the second stage.

@@ -150,7 +150,7 @@ fn prediction(facts: &Facts, published: &Facts) -> (f64, usize) {
     (root_mean_square(&deviations), settings.len())
 }
 
-/// The scene itself and each acceptable configuration, with predictions and claims.
+/// The scene before the search and each acceptable configuration, with predictions and claims.
 fn judge_accepted(
     workshop: &Workshop<'_>,
     case: Case,
@@ -159,11 +159,11 @@ fn judge_accepted(
 ) -> Result<Vec<Vec<String>>, TaskError> {
     let acceptable: Vec<&Tried> =
         tried.iter().filter(|one| one.misfit.is_some_and(|misfit| misfit <= ACCEPTABLE)).take(MOST).collect();
-    let mut studies = vec![Study::small(case, Vec::new())];
+    let mut studies = vec![Study::small(case, Configuration::start(case).keys())];
     studies.extend(acceptable.iter().map(|one| Study::small(case, one.configuration.keys())));
     let (found, _) = carry_out(workshop, &studies)?;
-    let labels =
-        std::iter::once("the scene".to_owned()).chain(acceptable.iter().map(|one| one.configuration.label()));
+    let labels = std::iter::once("the scene before the search".to_owned())
+        .chain(acceptable.iter().map(|one| one.configuration.label()));
     Ok(labels
         .zip(&found)
         .map(|(label, facts)| {

@@ -24,22 +24,43 @@ impl Choice {
 /// A point of the search space.
 #[derive(Debug, Clone)]
 pub(crate) struct Configuration {
-    pub(crate) choices: Vec<Choice>,
+    case: Case,
+    choices: Vec<Choice>,
 }
 
 impl Configuration {
+    /// The scene as it was when the search was written down. It stays the start of the search, whatever the scene takes
+    /// over from it.
+    pub(crate) fn start(case: Case) -> Self {
+        Self { case, choices: Vec::new() }
+    }
+
     pub(crate) fn label(&self) -> String {
         self.choices.iter().map(|choice| choice.label.as_str()).collect::<Vec<_>>().join("; ")
     }
 
     pub(crate) fn keys(&self) -> Vec<String> {
-        self.choices.iter().flat_map(|choice| choice.keys.clone()).collect()
+        let start = start_keys(self.case).into_iter().map(str::to_owned);
+        start.chain(self.choices.iter().flat_map(|choice| choice.keys.clone())).collect()
     }
 
     pub(crate) fn with(&self, choice: &Choice) -> Self {
         let mut choices = self.choices.clone();
         choices.push(choice.clone());
-        Self { choices }
+        Self { case: self.case, choices }
+    }
+}
+
+/// What the scene has taken over from the search since, as it was before. A later key replaces an earlier one.
+fn start_keys(case: Case) -> Vec<&'static str> {
+    match case {
+        Case::Tank => Vec::new(),
+        Case::Beam => vec![
+            "structure.material.saint_venant_kirchhoff.young_modulus=2.8e7",
+            "fluid.boundary.inflow={ velocity = [\"2.5*y*(4 - y)\", 0] }",
+            "fluid.newton.tolerance.absolute=3e-7",
+            "structure.newton.tolerance.absolute=3e-7",
+        ],
     }
 }
 
@@ -70,8 +91,8 @@ pub(crate) fn viscosity(value: f64) -> Choice {
 }
 
 /// All combinations of one choice of each factor.
-fn product(factors: &[Vec<Choice>]) -> Vec<Configuration> {
-    let start = vec![Configuration { choices: Vec::new() }];
+fn product(case: Case, factors: &[Vec<Choice>]) -> Vec<Configuration> {
+    let start = vec![Configuration::start(case)];
     factors.iter().fold(start, |configurations, factor| {
         configurations.iter().flat_map(|old| factor.iter().map(|choice| old.with(choice))).collect()
     })
@@ -92,12 +113,15 @@ pub(crate) fn refined(case: Case) -> Vec<Configuration> {
     };
     match case {
         Case::Tank => Vec::new(),
-        Case::Beam => product(&[
-            [2.0e7, 2.4e7, 2.8e7].map(young).to_vec(),
-            [0.05, 0.1].map(rising_inflow).to_vec(),
-            [3e-7, 6e-7, 1.5e-6].map(|value| bound("structure", value)).to_vec(),
-            [1e-7, 3e-7].map(|value| bound("fluid", value)).to_vec(),
-        ]),
+        Case::Beam => product(
+            case,
+            &[
+                [2.0e7, 2.4e7, 2.8e7].map(young).to_vec(),
+                [0.05, 0.1].map(rising_inflow).to_vec(),
+                [3e-7, 6e-7, 1.5e-6].map(|value| bound("structure", value)).to_vec(),
+                [1e-7, 3e-7].map(|value| bound("fluid", value)).to_vec(),
+            ],
+        ),
     }
 }
 
@@ -119,7 +143,7 @@ pub(crate) fn grid(root: &Path, folder: &Path, case: Case) -> Result<Vec<Configu
             vec![Choice::new("full inflow", &[]), rising_inflow(0.1)],
         ],
     };
-    Ok(product(&factors))
+    Ok(product(case, &factors))
 }
 
 /// The variations of the second stage.

@@ -33,7 +33,7 @@ pub(crate) fn variants(root: &Path, folder: &Path, case: Case) -> Result<Vec<Cho
                 keys: vec!["structure.time_scheme.generalized_alpha.spectral_radius=0.5".to_owned()],
             },
         ],
-        Case::Beam => vec![scene, thickness(0.05)?, thickness(0.08)?, young(1.4e7), viscosity(0.1)],
+        Case::Beam => vec![scene, thickness(0.05)?, thickness(0.08)?, young(1.2e7), viscosity(0.1)],
     })
 }
 

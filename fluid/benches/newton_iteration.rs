@@ -4,6 +4,9 @@
 //! cargo bench -p partita-fluid
 //! ```
 
+#[path = "../../numerics/benches/alternating/mod.rs"]
+mod alternating;
+
 use std::hint::black_box;
 use std::sync::Arc;
 
@@ -62,7 +65,7 @@ fn newton_iteration(criterion: &mut Criterion) {
         group.bench_function(id("residual and tangent"), |bencher| bencher.iter(|| fluid.assemble(true)));
         group.bench_function(id("residual"), |bencher| bencher.iter(|| fluid.assemble(false)));
         let (pattern, values) = fluid.tangent();
-        let mut factor = Factor::new(Method::Lu, pattern).expect("a pattern");
+        let mut factor = Factor::new(Method::NodeBlockLu, pattern).expect("a pattern");
         group.bench_function(id("refactor"), |bencher| bencher.iter(|| factor.refactor(values)));
         let mut solution = vec![1.0; pattern.size()];
         group.bench_function(id("solve"), |bencher| {
@@ -77,5 +80,27 @@ fn newton_iteration(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, newton_iteration);
+/// Refactor and solve a tangent with faer's LU and with the one of the fluid, in turns.
+fn against_faer(_: &mut Criterion) {
+    println!("equations  faer [ms]  node blocks [ms]  ratio   (refactor and solve)");
+    for (divisions, rounds) in [(10, 400), (29, 60), (70, 12)] {
+        let mut fluid = tank(divisions);
+        fluid.assemble(true).expect("an assembly");
+        let (pattern, values) = fluid.tangent();
+        let work = |method| {
+            let mut factor = Factor::new(method, pattern).expect("a pattern");
+            let mut solution = vec![1.0; pattern.size()];
+            move || {
+                factor.refactor(black_box(values)).expect("a regular tangent");
+                solution.fill(1.0);
+                factor.solve(black_box(&mut solution));
+            }
+        };
+        let medians = alternating::alternate(rounds, work(Method::Lu), work(Method::NodeBlockLu));
+        let (size, ratio) = (pattern.size(), medians.ratio());
+        println!("{size:9}  {:9.3}  {:16.3}  {ratio:5.2}", medians.first, medians.second);
+    }
+}
+
+criterion_group!(benches, against_faer, newton_iteration);
 criterion_main!(benches);

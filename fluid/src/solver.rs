@@ -92,7 +92,7 @@ impl<const D: usize> FluidSolver<D> {
         boundary::check(&mesh, &model, &settings)?;
         let boundaries = Boundaries::new(&mesh, &model, &settings)?;
         let assembly = Assembly::new(mesh.cells(), &boundaries.prescribed);
-        let factor = Factor::new(Method::Lu, &assembly.pattern)?;
+        let factor = Factor::new(Method::NodeBlockLu, &assembly.pattern)?;
         let motion = match &boundaries.mesh_prescribed {
             Some(prescribed) => Some(MeshMotion::new(&mesh, settings.motion, prescribed)?),
             None => None,
@@ -187,6 +187,12 @@ impl<const D: usize> FluidSolver<D> {
     #[must_use]
     pub fn phases(&self) -> PhaseSeconds {
         self.phases
+    }
+
+    /// How often a tangent had to be factored by the slower of the two methods for LU, see [`Factor::fallbacks`].
+    #[must_use]
+    pub fn factor_fallbacks(&self) -> usize {
+        self.factor.fallbacks()
     }
 
     /// The tangent of the last assembly over the free equations. Rows and columns of nodes on inclined slip

@@ -143,9 +143,7 @@ impl Factor {
     fn refactor_or_fall_back(&mut self, values: &[f64]) -> Result<(), FactorError> {
         if self.backend.refactor(values).is_ok() {
             self.try_out(values);
-            if self.trial_error < trial::SOUND
-                || self.trial.backward_error(&self.pattern, values) < trial::STABLE
-            {
+            if self.trial_error < trial::SOUND || self.is_stable(values) {
                 return Ok(());
             }
         }
@@ -159,6 +157,11 @@ impl Factor {
     fn try_out(&mut self, values: &[f64]) {
         let backend = &mut self.backend;
         self.trial_error = self.trial.error(&self.pattern, values, |rhs| backend.solve(rhs));
+    }
+
+    fn is_stable(&mut self, values: &[f64]) -> bool {
+        let backend = &mut self.backend;
+        self.trial.is_stable(&self.pattern, values, |rhs| backend.solve(rhs))
     }
 
     /// How often a factor of [`Method::NodeBlockLu`] turned out bad, or did not come about, so that [`Method::Lu`] had

@@ -38,6 +38,9 @@ fn iterations(records: &[Record]) -> impl Iterator<Item = &IterationRecord> {
     })
 }
 
+/// The fluid's bound lies within a decade of round-off, so that the last digits of a linear solution show. With the
+/// entries of each fluid increment multiplied by 1 +- 5e-16 at random, 24 times, the coupling takes 62 to 73, 39 to 40, 46
+/// to 49 and 41 to 42 iterations after faer's LU, and 62 to 64, 39 to 41, 46 to 49 and 41 to 42 after the node-block LU.
 #[test]
 fn first_steps_of_the_tank_cost_what_they_did() {
     let mut table = vec!["N^f N^s  coupling  fluid  structure".to_owned()];
@@ -51,10 +54,10 @@ fn first_steps_of_the_tank_cost_what_they_did() {
     }
     assert_snapshot!(table.join("\n"), @r"
     N^f N^s  coupling  fluid  structure
-    1 1: 63 63 58
-    unlimited unlimited: 39 163 91
-    2 3: 48 96 99
-    unlimited 1: 42 173 42
+    1 1: 62 62 58
+    unlimited unlimited: 39 164 91
+    2 3: 46 92 96
+    unlimited 1: 42 175 42
     ");
 }
 

@@ -7,6 +7,7 @@ mod common;
 mod conditions;
 mod errors;
 mod exact;
+mod factor;
 mod interface;
 mod kernel;
 mod newton;

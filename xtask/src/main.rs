@@ -18,7 +18,6 @@ mod picture;
 mod reproduce;
 mod sensitivity;
 mod stretch;
-mod svg;
 mod task;
 mod tidy;
 

@@ -1,7 +1,7 @@
 //! Mesh, field and structure in one drawing.
 
 use super::vtu::Piece;
-use crate::svg::{Anchor, Colour, Svg};
+use partita_charts::svg::{Anchor, Colour, Svg};
 
 /// Longer side of what is drawn, in pixels.
 const EXTENT: f64 = 620.0;

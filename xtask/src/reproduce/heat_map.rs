@@ -1,7 +1,7 @@
 //! The paper's contour plots as heat maps, two side by side on one scale.
 
 use super::counts::{Count, Grid};
-use crate::svg::{Anchor, Colour, Svg};
+use partita_charts::svg::{Anchor, Colour, Svg};
 
 const CELL: [f64; 2] = [52.0, 34.0];
 const LEFT: f64 = 50.0;

@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 /// A drawing under construction; lengths are pixels, the origin is the upper left corner.
-pub(crate) struct Svg {
+#[derive(Debug)]
+pub struct Svg {
     width: f64,
     height: f64,
     title: String,
@@ -12,18 +13,35 @@ pub(crate) struct Svg {
 
 /// Where a text stands relative to its place.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Anchor {
+pub enum Anchor {
+    /// It starts there.
     Start,
+    /// Its middle is there.
     Middle,
+    /// It ends there.
+    End,
+}
+
+/// How a line is broken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dash {
+    /// Not at all.
+    None,
+    /// Long dashes.
+    Long,
+    /// Dots.
+    Dots,
 }
 
 impl Svg {
     /// A white sheet; `title` is read out where the drawing is not seen.
-    pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
+    #[must_use]
+    pub fn new(width: f64, height: f64, title: &str) -> Self {
         Self { width, height, title: escaped(title), body: String::new() }
     }
 
-    pub(crate) fn rectangle(&mut self, corner: [f64; 2], size: [f64; 2], fill: Colour) {
+    /// A rectangle of one colour; `corner` is its upper left one.
+    pub fn rectangle(&mut self, corner: [f64; 2], size: [f64; 2], fill: Colour) {
         let ([x, y], [width, height]) = (corner, size);
         self.line(&format!(
             r#"<rect x="{x:.2}" y="{y:.2}" width="{width:.2}" height="{height:.2}" fill="{}"/>"#,
@@ -33,13 +51,13 @@ impl Svg {
 
     /// A polygon of one colour. Its edge has that colour too: a hairline of the sheet would shine through between
     /// neighbours.
-    pub(crate) fn polygon(&mut self, points: &[[f64; 2]], fill: Colour) {
+    pub fn polygon(&mut self, points: &[[f64; 2]], fill: Colour) {
         let fill = fill.hex();
         self.line(&format!(r#"<polygon points="{}" fill="{fill}" stroke="{fill}"/>"#, joined(points)));
     }
 
     /// The edges of a polygon.
-    pub(crate) fn outline(&mut self, points: &[[f64; 2]], stroke: Colour, width: f64) {
+    pub fn outline(&mut self, points: &[[f64; 2]], stroke: Colour, width: f64) {
         self.line(&format!(
             r#"<polygon points="{}" fill="none" stroke="{}" stroke-width="{width}"/>"#,
             joined(points),
@@ -47,11 +65,13 @@ impl Svg {
         ));
     }
 
-    pub(crate) fn text(&mut self, place: [f64; 2], size: f64, anchor: Anchor, fill: Colour, text: &str) {
+    /// A line of text on a baseline.
+    pub fn text(&mut self, place: [f64; 2], size: f64, anchor: Anchor, fill: Colour, text: &str) {
         let [x, y] = place;
         let anchor = match anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
+            Anchor::End => "end",
         };
         self.line(&format!(
             r#"<text x="{x:.2}" y="{y:.2}" font-size="{size}" text-anchor="{anchor}" fill="{}">{}</text>"#,
@@ -60,8 +80,49 @@ impl Svg {
         ));
     }
 
+    /// A line of text that runs upwards through its place, its middle there.
+    pub fn text_upwards(&mut self, place: [f64; 2], size: f64, fill: Colour, text: &str) {
+        let [x, y] = place;
+        self.line(&format!(
+            r#"<text transform="translate({x:.2} {y:.2}) rotate(-90)" font-size="{size}" text-anchor="middle" fill="{}">{}</text>"#,
+            fill.hex(),
+            escaped(text)
+        ));
+    }
+
+    /// Straight lines through points.
+    pub fn path(&mut self, points: &[[f64; 2]], stroke: Colour, width: f64, dash: Dash) {
+        let dash = match dash {
+            Dash::None => "",
+            Dash::Long => r#" stroke-dasharray="6 4""#,
+            Dash::Dots => r#" stroke-dasharray="1.5 3""#,
+        };
+        self.line(&format!(
+            r#"<polyline points="{}" fill="none" stroke="{}" stroke-width="{width}"{dash}/>"#,
+            joined(points),
+            stroke.hex()
+        ));
+    }
+
+    /// A ring, or a disc where `fill` is the colour of its edge.
+    pub fn circle(
+        &mut self,
+        centre: [f64; 2],
+        radius: f64,
+        fill: Option<Colour>,
+        stroke: Colour,
+        width: f64,
+    ) {
+        let [x, y] = centre;
+        let fill = fill.map_or_else(|| "none".to_owned(), Colour::hex);
+        self.line(&format!(
+            r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius}" fill="{fill}" stroke="{}" stroke-width="{width}"/>"#,
+            stroke.hex()
+        ));
+    }
+
     /// A bar of the colours from `low` (below) to `high` (above), with both written beside it.
-    pub(crate) fn colour_bar(&mut self, corner: [f64; 2], size: [f64; 2], low: &str, high: &str) {
+    pub fn colour_bar(&mut self, corner: [f64; 2], size: [f64; 2], low: &str, high: &str) {
         const STRIPES: usize = 40;
         let ([x, y], [width, height]) = (corner, size);
         for stripe in 0..STRIPES {
@@ -78,7 +139,8 @@ impl Svg {
     }
 
     /// The file's text.
-    pub(crate) fn finish(self) -> String {
+    #[must_use]
+    pub fn finish(self) -> String {
         let Self { width, height, title, body } = self;
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" \
@@ -98,17 +160,34 @@ fn escaped(text: &str) -> String {
 
 /// Red, green and blue, 0 to 255.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Colour([f64; 3]);
+pub struct Colour([f64; 3]);
 
 impl Colour {
-    pub(crate) const BLACK: Self = Self([0.0; 3]);
-    pub(crate) const WHITE: Self = Self([255.0; 3]);
-    pub(crate) const GREY: Self = Self([120.0; 3]);
+    /// Black.
+    pub const BLACK: Self = Self([0.0; 3]);
+    /// White.
+    pub const WHITE: Self = Self([255.0; 3]);
+    /// For what stands behind.
+    pub const GREY: Self = Self([120.0; 3]);
     /// A colour that the scale does not have.
-    pub(crate) const STEEL: Self = Self([205.0, 92.0, 60.0]);
+    pub const STEEL: Self = Self([205.0, 92.0, 60.0]);
+
+    /// Light grey, for the lines of a grid.
+    pub const PALE: Self = Self([224.0; 3]);
+    /// Colours that colour-blind readers tell apart (Okabe and Ito 2008).
+    pub const LINES: [Self; 7] = [
+        Self([0.0, 114.0, 178.0]),
+        Self([213.0, 94.0, 0.0]),
+        Self([0.0, 158.0, 115.0]),
+        Self([204.0, 121.0, 167.0]),
+        Self([230.0, 159.0, 0.0]),
+        Self([86.0, 180.0, 233.0]),
+        Self([0.0, 0.0, 0.0]),
+    ];
 
     /// Dark blue at 0 over green to yellow at 1; rising in brightness, so that it survives a copier.
-    pub(crate) fn on_scale(part: f64) -> Self {
+    #[must_use]
+    pub fn on_scale(part: f64) -> Self {
         const STOPS: [[f64; 3]; 5] = [
             [62.0, 20.0, 90.0],
             [57.0, 86.0, 140.0],
@@ -127,7 +206,8 @@ impl Colour {
     }
 
     /// Black or white, whichever is read better on this.
-    pub(crate) fn ink(self) -> Self {
+    #[must_use]
+    pub fn ink(self) -> Self {
         let [red, green, blue] = self.0;
         if 0.299 * red + 0.587 * green + 0.114 * blue > 140.0 { Self::BLACK } else { Self::WHITE }
     }

@@ -1,0 +1,3 @@
+//! Drawings of measured numbers, as SVG text: no files, no fonts, no dependencies.
+
+pub mod svg;

@@ -1,0 +1,202 @@
+//! The work-precision diagram: error against CPU seconds, both on logarithmic axes.
+
+use super::{Curve, Fit, Point, cheapest};
+use crate::axis::{LogAxis, rounded};
+use crate::svg::{Anchor, Colour, Dash, Svg};
+
+/// What is drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct Diagram<'a> {
+    /// Heading.
+    pub title: &'a str,
+    /// What the error is of, with its unit.
+    pub error: &'a str,
+    /// The curves.
+    pub curves: &'a [Curve],
+    /// How well the reference is known, in the unit of the error.
+    pub uncertainty: f64,
+    /// The error that is wanted; the cheapest setting that reaches it is ringed.
+    pub wanted: Option<f64>,
+}
+
+const WIDTH: f64 = 780.0;
+const LEFT: f64 = 72.0;
+const RIGHT: f64 = 500.0;
+const TOP: f64 = 44.0;
+const BOTTOM: f64 = 380.0;
+/// Below the axis and its name.
+const FOOT: f64 = 44.0;
+/// Height of a curve's two lines in the legend, and of any other entry.
+const ENTRY: f64 = 36.0;
+const LINE: f64 = 20.0;
+const SMALL: f64 = 11.0;
+
+impl Diagram<'_> {
+    /// The drawing as SVG text; `None` where no point has both an error and a time.
+    ///
+    /// Points on a floor are hollow, and the fitted law is drawn dashed through the others.
+    #[must_use]
+    pub fn draw(&self) -> Option<String> {
+        let points = || self.curves.iter().flat_map(|curve| &curve.points);
+        let across = LogAxis::around(points().map(|point| point.cpu_seconds), [LEFT, RIGHT])?;
+        let up = LogAxis::around(points().map(|point| point.error).chain(self.wanted), [BOTTOM, TOP])?;
+        let legend = TOP + self.curves.len() as f64 * ENTRY + 3.0 * LINE;
+        let mut svg = Svg::new(WIDTH, BOTTOM.max(legend) + FOOT, self.title);
+        svg.text([LEFT, 24.0], 14.0, Anchor::Start, Colour::BLACK, self.title);
+        frame(&mut svg, &across, &up, self.error);
+        self.draw_wanted(&mut svg, &across, &up);
+        for (curve, colour) in self.curves.iter().zip(Colour::LINES.into_iter().cycle()) {
+            self.draw_curve(&mut svg, &across, &up, curve, colour);
+        }
+        self.draw_legend(&mut svg);
+        Some(svg.finish())
+    }
+
+    fn draw_wanted(&self, svg: &mut Svg, across: &LogAxis, up: &LogAxis) {
+        let Some(wanted) = self.wanted else { return };
+        let y = up.place(wanted);
+        svg.path(&[[LEFT, y], [RIGHT, y]], Colour::GREY, 1.0, Dash::Dots);
+        if let Some((_, point)) = cheapest(self.curves, wanted).filter(|(_, point)| is_shown(point)) {
+            svg.circle(place(across, up, point), 9.0, None, Colour::BLACK, 1.2);
+        }
+    }
+
+    fn draw_curve(&self, svg: &mut Svg, across: &LogAxis, up: &LogAxis, curve: &Curve, colour: Colour) {
+        let trend = curve.trend(self.uncertainty);
+        let shown: Vec<[f64; 2]> = curve
+            .points
+            .iter()
+            .filter(|point| is_shown(point))
+            .map(|point| place(across, up, point))
+            .collect();
+        svg.path(&shown, colour, 1.0, Dash::None);
+        if let Some(fit) = trend.fit {
+            let end = |error: f64| [across.place(across.clamp(fit.seconds(error))), up.place(error)];
+            svg.path(&fit.errors.map(end), colour, 2.0, Dash::Long);
+        }
+        let floor = trend.floor.map_or(curve.points.len(), |floor| floor.start);
+        for (index, point) in curve.points.iter().enumerate().filter(|(_, point)| is_shown(point)) {
+            let fill = if index < floor { colour } else { Colour::WHITE };
+            svg.circle(place(across, up, point), 4.0, Some(fill), colour, 1.5);
+        }
+    }
+
+    fn draw_legend(&self, svg: &mut Svg) {
+        let (x, text) = (RIGHT + 20.0, RIGHT + 52.0);
+        let mut y = TOP + 12.0;
+        for (curve, colour) in self.curves.iter().zip(Colour::LINES.into_iter().cycle()) {
+            svg.path(&[[x, y - 4.0], [x + 24.0, y - 4.0]], colour, 2.0, Dash::None);
+            svg.circle([x + 12.0, y - 4.0], 4.0, Some(colour), colour, 1.5);
+            svg.text([text, y], 12.0, Anchor::Start, Colour::BLACK, &curve.name);
+            let law = curve.trend(self.uncertainty).fit.as_ref().map_or_else(|| "no law".to_owned(), law);
+            svg.text([text, y + 14.0], SMALL, Anchor::Start, Colour::GREY, &law);
+            y += ENTRY;
+        }
+        let mut note = |draw: &dyn Fn(&mut Svg, f64), words: &str| {
+            draw(svg, y - 4.0);
+            svg.text([text, y], SMALL, Anchor::Start, Colour::GREY, words);
+            y += LINE;
+        };
+        note(&|svg, y| svg.path(&[[x, y], [x + 24.0, y]], Colour::GREY, 2.0, Dash::Long), "fitted law");
+        note(
+            &|svg, y| svg.circle([x + 12.0, y], 4.0, Some(Colour::WHITE), Colour::GREY, 1.5),
+            "not fitted: the error has stopped falling",
+        );
+        if let Some(wanted) = self.wanted {
+            note(
+                &|svg, y| svg.path(&[[x, y], [x + 24.0, y]], Colour::GREY, 1.0, Dash::Dots),
+                &format!("wanted: {}; ringed: cheapest", rounded(wanted, 2)),
+            );
+        }
+    }
+}
+
+/// The box, its grid and its names.
+fn frame(svg: &mut Svg, across: &LogAxis, up: &LogAxis, error: &str) {
+    for tick in across.ticks() {
+        let x = across.place(tick.value);
+        svg.path(&[[x, TOP], [x, BOTTOM]], Colour::PALE, 1.0, Dash::None);
+        svg.text([x, BOTTOM + 16.0], SMALL, Anchor::Middle, Colour::BLACK, &tick.label);
+    }
+    for tick in up.ticks() {
+        let y = up.place(tick.value);
+        svg.path(&[[LEFT, y], [RIGHT, y]], Colour::PALE, 1.0, Dash::None);
+        svg.text([LEFT - 6.0, y + 4.0], SMALL, Anchor::End, Colour::BLACK, &tick.label);
+    }
+    svg.outline(&[[LEFT, TOP], [RIGHT, TOP], [RIGHT, BOTTOM], [LEFT, BOTTOM]], Colour::GREY, 1.0);
+    let middle = [0.5 * (LEFT + RIGHT), 0.5 * (TOP + BOTTOM)];
+    svg.text([middle[0], BOTTOM + 34.0], 12.0, Anchor::Middle, Colour::BLACK, "CPU time [s]");
+    svg.text_upwards([18.0, middle[1]], 12.0, Colour::BLACK, error);
+}
+
+fn is_shown(point: &Point) -> bool {
+    point.error > 0.0 && point.cpu_seconds > 0.0
+}
+
+fn place(across: &LogAxis, up: &LogAxis, point: &Point) -> [f64; 2] {
+    [across.place(point.cpu_seconds), up.place(point.error)]
+}
+
+/// Slope and price of a digit, in the words of the legend.
+fn law(fit: &Fit) -> String {
+    /// A steeper curve is upright: its slope is the noise of the clock.
+    const UPRIGHT: f64 = 30.0;
+    let factor = rounded(fit.digit_factor(), 2);
+    if fit.slope().abs() > UPRIGHT || fit.decades_per_digit <= 0.0 {
+        return "upright: a digit costs next to nothing".to_owned();
+    }
+    format!("slope {}: a digit costs x {factor}", rounded(fit.slope(), 2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(name: &str, points: &[(f64, f64)]) -> Curve {
+        let point = |&(error, cpu_seconds): &(f64, f64)| Point { name: String::new(), error, cpu_seconds };
+        Curve { name: name.into(), points: points.iter().map(point).collect() }
+    }
+
+    #[test]
+    fn a_diagram_names_curves_slopes_and_what_is_wanted() {
+        let curves = [
+            curve("BDF1 & h", &[(0.1, 0.01), (0.01, 0.1), (0.001, 1.0)]),
+            curve("BDF2", &[(0.1, 0.02), (0.001, 0.2), (0.0009, 0.4), (0.0, 0.8)]),
+        ];
+        let diagram = Diagram {
+            title: "A < B",
+            error: "error [-]",
+            curves: &curves,
+            uncertainty: 0.0,
+            wanted: Some(0.02),
+        };
+        let svg = diagram.draw().expect("points");
+        for needed in [
+            "<svg ",
+            "A &lt; B",
+            "BDF1 &amp; h",
+            "slope -1: a digit costs x 10",
+            "error [-]",
+            "CPU time [s]",
+            "wanted: 0.02",
+        ] {
+            assert!(svg.contains(needed), "{needed} is not in the drawing");
+        }
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        // Two legends, seven points with both numbers, the ring, the hollow one of the legend.
+        assert_eq!(svg.matches("<circle").count(), 2 + 6 + 1 + 1);
+        assert_eq!(diagram.draw(), Some(svg));
+    }
+
+    #[test]
+    fn nothing_measured_is_nothing_drawn() {
+        let diagram = Diagram {
+            title: "",
+            error: "",
+            curves: &[curve("", &[(0.0, 1.0)])],
+            uncertainty: 0.0,
+            wanted: None,
+        };
+        assert_eq!(diagram.draw(), None);
+    }
+}

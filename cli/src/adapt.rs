@@ -11,7 +11,9 @@ mod solvers;
 use std::error::Error;
 
 use partita_coupling::port::total_len;
-use partita_coupling::{Block, Change, Effort, NewtonLimit, Participant, ParticipantError, PhaseTimes, Step};
+use partita_coupling::{
+    Block, Change, Effort, NewtonLimit, Participant, ParticipantError, PhaseTimes, Step, WorkDetails,
+};
 use partita_numerics::newton::{self, Bound, Failure, Limit, Report, ResidualNorm, Verdict};
 use partita_numerics::norms::{norm2, relative, relative_change};
 use partita_numerics::phases::PhaseSeconds;
@@ -29,6 +31,8 @@ pub struct Adapter<F> {
     entry: Vec<f64>,
     /// The interface output of the last call, for calls that run until it settles.
     last_output: Vec<f64>,
+    /// The field's work that records have told of already. What a step does before its first call belongs to that call.
+    told: WorkDetails,
 }
 
 /// What an adapter and its field remember between steps.
@@ -46,7 +50,8 @@ impl<F: Field> Adapter<F> {
     pub fn new(field: F, input: Vec<Block>, output: Vec<Block>) -> Self {
         let entry = field.values().to_vec();
         let last_output = vec![0.0; total_len(&output)];
-        Self { field, input, output, entry, last_output }
+        let told = field.work();
+        Self { field, input, output, entry, last_output, told }
     }
 
     /// The field solver.
@@ -68,6 +73,7 @@ impl<F: Field> Adapter<F> {
     pub fn restore(&mut self, state: &AdapterState<F::State>) -> Result<(), F::Error> {
         self.field.restore(&state.field)?;
         self.last_output.copy_from_slice(&state.last_output);
+        self.told = self.field.work();
         Ok(())
     }
 
@@ -130,7 +136,10 @@ where
         self.last_output.copy_from_slice(output);
         let changes = self.changes();
         self.entry.copy_from_slice(self.field.values());
-        Ok(effort(&report, settings.bound, changes, self.field.phases() - before))
+        let mut effort = effort(&report, settings.bound, changes, self.field.phases() - before);
+        let work = self.field.work();
+        effort.details += work - std::mem::replace(&mut self.told, work);
+        Ok(effort)
     }
 
     fn commit(&mut self) {
@@ -179,6 +188,7 @@ fn effort(report: &Report, bound: Bound, changes: Vec<Change>, phases: PhaseSeco
             solve: phases.solve,
             mesh_motion: phases.motion,
         },
+        details: WorkDetails { tangents: report.tangents, ..WorkDetails::default() },
     }
 }
 

@@ -66,7 +66,7 @@ pub use divergence::Growth;
 pub use error::{ParticipantError, SetupError, StepError, StepFailure};
 pub use march::{AtLimit, Choices, CouplingSettings, March, MarchState};
 pub use observe::Observer;
-pub use participant::{Change, Effort, NewtonLimit, Participant, PhaseTimes, Step};
+pub use participant::{Change, Effort, NewtonLimit, Participant, PhaseTimes, Step, WorkDetails};
 pub use policy::{Limits, NewtonPolicy, Policy};
 pub use port::{Block, Quantity};
 pub use predict::Predictor;

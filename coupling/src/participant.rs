@@ -1,7 +1,7 @@
 //! One field of the coupled problem.
 
 use std::borrow::Cow;
-use std::ops::AddAssign;
+use std::ops::{AddAssign, Sub};
 
 use serde::{Deserialize, Serialize};
 
@@ -57,6 +57,29 @@ impl AddAssign for PhaseTimes {
     }
 }
 
+/// What stands behind the counts of assemblies and factorizations of one field, and what they leave out.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct WorkDetails {
+    /// Assemblies that evaluated the tangent, too.
+    pub tangents: usize,
+    /// Factorizations whose factor turned out bad, so that a slower method had to factor the matrix again.
+    pub fallbacks: usize,
+    /// Factorizations for the motion of the mesh; one that serves the whole run is made before its first step and not
+    /// counted.
+    pub mesh_factorizations: usize,
+    /// Linear solves for the motion of the mesh.
+    pub mesh_solves: usize,
+}
+
+impl AddAssign for WorkDetails {
+    fn add_assign(&mut self, other: Self) {
+        self.tangents += other.tangents;
+        self.fallbacks += other.fallbacks;
+        self.mesh_factorizations += other.mesh_factorizations;
+        self.mesh_solves += other.mesh_solves;
+    }
+}
+
 /// Relative change of one part of a field's solution within one call.
 ///
 /// `|s_exit - s_entry| / |s_exit|` over the free dofs of the part, 0/0 = 0; entry is the exit of the last
@@ -75,6 +98,20 @@ impl Change {
     #[must_use]
     pub fn new(part: impl Into<Cow<'static, str>>, value: f64) -> Self {
         Self { part: part.into(), value }
+    }
+}
+
+impl Sub for WorkDetails {
+    type Output = Self;
+
+    /// The work between two readings of counters.
+    fn sub(self, before: Self) -> Self {
+        Self {
+            tangents: self.tangents - before.tangents,
+            fallbacks: self.fallbacks - before.fallbacks,
+            mesh_factorizations: self.mesh_factorizations - before.mesh_factorizations,
+            mesh_solves: self.mesh_solves - before.mesh_solves,
+        }
     }
 }
 
@@ -102,6 +139,8 @@ pub struct Effort {
     pub changes: Vec<Change>,
     /// Where the time went.
     pub time: PhaseTimes,
+    /// More of its work.
+    pub details: WorkDetails,
 }
 
 /// One field of the coupled problem: input at the interface in, output at the interface out.

@@ -8,7 +8,7 @@ use std::ops::AddAssign;
 use serde::{Deserialize, Serialize};
 
 use crate::accelerate::Proposal;
-use crate::participant::{Change, Effort, NewtonLimit, PhaseTimes, Step};
+use crate::participant::{Change, Effort, NewtonLimit, PhaseTimes, Step, WorkDetails};
 
 /// One line of a run's record: `{"iteration": {...}}` or `{"step": {...}}`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -47,6 +47,9 @@ pub struct FieldRecord {
     pub converged: bool,
     /// Relative change of every part of the solution.
     pub changes: Vec<Change>,
+    /// More of its work; nothing in records of older versions.
+    #[serde(default)]
+    pub details: WorkDetails,
 }
 
 impl FieldRecord {
@@ -65,6 +68,7 @@ impl FieldRecord {
             entry_converged: effort.entry_converged,
             converged: effort.converged,
             changes: effort.changes,
+            details: effort.details,
         }
     }
 }
@@ -120,6 +124,9 @@ pub struct FieldTotals {
     pub factorizations: usize,
     /// Linear solves.
     pub solves: usize,
+    /// More of its work; nothing in records of older versions.
+    #[serde(default)]
+    pub details: WorkDetails,
 }
 
 /// One finished step.
@@ -209,6 +216,7 @@ impl StepHistory {
             totals.assemblies += call.assemblies;
             totals.factorizations += call.factorizations;
             totals.solves += call.solves;
+            totals.details += call.details;
         }
         totals
     }
@@ -278,6 +286,7 @@ pub(crate) mod samples {
                 converged,
                 changes: vec![Change::new(part, value)],
                 time: PhaseTimes::default(),
+                details: WorkDetails { tangents: 2, mesh_solves: 1, ..WorkDetails::default() },
             };
             FieldRecord::new(name, NewtonLimit::AtMost(2), effort)
         };
@@ -303,15 +312,17 @@ mod tests {
     fn iteration_is_one_line_with_a_fixed_order_of_fields() {
         let history = samples::history([0.5, 0.25], false, true);
         let line = serde_json::to_string(&Record::Iteration(history.iterations[0].clone())).unwrap();
-        let broken = ["{\"name", "\"changes", "\"acceleration\":{", "\"seconds", "{\"total"]
+        let broken = ["{\"name", "\"changes", "\"details", "\"acceleration\":{", "\"seconds", "{\"total"]
             .iter()
             .fold(line, |line, start| line.replace(start, &format!("\n{start}")));
         insta::assert_snapshot!(broken, @r#"
         {"iteration":{"step":1,"iteration":1,"residual":0.25,"relative_residual":0.125,"work_defect":0.0,"fields":[
         {"name":"fluid","limit":{"at_most":2},"newton":2,"assemblies":3,"factorizations":2,"solves":2,"entry_residual":0.5,"residual":1e-12,"entry_converged":false,"converged":true,
-        "changes":[{"part":"velocity","value":0.5}]},
+        "changes":[{"part":"velocity","value":0.5}],
+        "details":{"tangents":2,"fallbacks":0,"mesh_factorizations":0,"mesh_solves":1}},
         {"name":"structure","limit":{"at_most":2},"newton":2,"assemblies":3,"factorizations":2,"solves":2,"entry_residual":0.5,"residual":1e-12,"entry_converged":false,"converged":true,
-        "changes":[{"part":"displacement","value":0.25}]}],
+        "changes":[{"part":"displacement","value":0.25}],
+        "details":{"tangents":2,"fallbacks":0,"mesh_factorizations":0,"mesh_solves":1}}],
         "acceleration":{"omega":0.5,"columns":0,"dropped":[]},
         "seconds":{"fields":[
         {"total":0.0,"phases":{"assembly":0.0,"factorization":0.0,"solve":0.0,"mesh_motion":0.0}},
@@ -327,6 +338,7 @@ mod tests {
         let record = StepRecord::new(&history, true);
         assert_eq!((record.iterations, record.fields[0].newton, record.fields[1].assemblies), (2, 4, 6));
         assert_eq!(record.fields[1].name, "structure");
+        assert_eq!((record.fields[0].details.tangents, record.fields[0].details.mesh_solves), (4, 2));
         assert_eq!(record.seconds.transfer.to_bits(), 2.0_f64.to_bits());
         assert_eq!(record.without_seconds().seconds, Seconds::default());
     }

@@ -189,10 +189,16 @@ impl<const D: usize> FluidSolver<D> {
         self.phases
     }
 
-    /// How often a tangent had to be factored by the slower of the two methods for LU, see [`Factor::fallbacks`].
+    /// How many factorizations since it was built had to be repeated by a slower method, see [`Factor::fallbacks`].
     #[must_use]
-    pub fn factor_fallbacks(&self) -> usize {
+    pub fn fallbacks(&self) -> usize {
         self.factor.fallbacks()
+    }
+
+    /// The motion of the mesh; nothing where no boundary moves.
+    #[must_use]
+    pub fn mesh_motion(&self) -> Option<&MeshMotion<D>> {
+        self.motion.as_ref()
     }
 
     /// The tangent of the last assembly over the free equations. Rows and columns of nodes on inclined slip

@@ -71,6 +71,8 @@ pub struct MeshMotion<const D: usize> {
     reference_measures: Vec<f64>,
     mode: MotionMode,
     system: System<D>,
+    factorizations: usize,
+    solves: usize,
 }
 
 impl<const D: usize> MeshMotion<D> {
@@ -98,6 +100,8 @@ impl<const D: usize> MeshMotion<D> {
             reference_measures,
             mode: settings.mode,
             system,
+            factorizations: 0,
+            solves: 0,
         })
     }
 
@@ -113,7 +117,10 @@ impl<const D: usize> MeshMotion<D> {
         self.assert_length(committed);
         match self.mode {
             MotionMode::Reference => Ok(()),
-            MotionMode::Incremental => self.system.factor_at(&self.points, &self.cells, committed),
+            MotionMode::Incremental => {
+                self.factorizations += 1;
+                self.system.factor_at(&self.points, &self.cells, committed)
+            }
         }
     }
 
@@ -137,7 +144,21 @@ impl<const D: usize> MeshMotion<D> {
         };
         self.system.check_finite(&self.points, displacement)?;
         self.system.displace(origin, displacement);
+        self.solves += 1;
         Ok(())
+    }
+
+    /// How often a matrix was factored since the motion was prepared; that of the reference mesh, which
+    /// [`new`](Self::new) factors, is not among them.
+    #[must_use]
+    pub fn factorizations(&self) -> usize {
+        self.factorizations
+    }
+
+    /// How often the displacement inside was solved for.
+    #[must_use]
+    pub fn solves(&self) -> usize {
+        self.solves
     }
 
     /// Measures and shapes of the cells after a displacement `[m]`.

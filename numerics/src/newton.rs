@@ -62,6 +62,8 @@ pub struct Report {
     pub iterations: usize,
     /// Residual evaluations, the one at the exit included.
     pub assemblies: usize,
+    /// Those of them that evaluated the tangent, too.
+    pub tangents: usize,
     /// Numeric factorizations of the tangent.
     pub factorizations: usize,
     /// Linear solves.

@@ -1,5 +1,6 @@
 //! The primitives that the adapter composes, under one name for both fields.
 
+use partita_coupling::WorkDetails;
 use partita_numerics::newton::{self, Problem};
 use partita_numerics::phases::PhaseSeconds;
 use serde::Serialize;
@@ -64,6 +65,9 @@ pub trait Field: Problem {
 
     /// Settings of the Newton loop.
     fn newton(&self) -> &newton::Settings;
+
+    /// Work since the solver was built that a Newton loop does not count; `tangents` stays zero.
+    fn work(&self) -> WorkDetails;
 
     /// Seconds spent in each phase since the solver was built.
     fn phases(&self) -> PhaseSeconds;

@@ -2,7 +2,9 @@
 
 use std::convert::identity;
 
+use partita_coupling::WorkDetails;
 use partita_fluid::{FluidError, FluidSolver, FluidState};
+use partita_mesh::motion::MeshMotion;
 use partita_numerics::newton;
 use partita_numerics::phases::PhaseSeconds;
 use partita_structure::{StructureError, StructureSolver, StructureState};
@@ -10,7 +12,7 @@ use partita_structure::{StructureError, StructureSolver, StructureState};
 use super::Field;
 
 macro_rules! field {
-    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr, $verify:expr) => {
+    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr, $verify:expr, $work:expr) => {
         impl Field for $solver {
             type State = $state;
             const NAME: &'static str = $name;
@@ -55,6 +57,9 @@ macro_rules! field {
             fn newton(&self) -> &newton::Settings {
                 self.newton_settings()
             }
+            fn work(&self) -> WorkDetails {
+                $work(self)
+            }
             fn phases(&self) -> PhaseSeconds {
                 Self::phases(self)
             }
@@ -62,6 +67,29 @@ macro_rules! field {
     };
 }
 
-field!(FluidSolver<2>, FluidState, FluidError, "fluid", identity, |_: &mut Self| Ok(()));
+field!(FluidSolver<2>, FluidState, FluidError, "fluid", identity, |_: &mut Self| Ok(()), fluid_work);
 // No interface data can break a structure before its equations are solved.
-field!(StructureSolver<2>, StructureState, StructureError, "structure", Ok, Self::check_orientation);
+field!(
+    StructureSolver<2>,
+    StructureState,
+    StructureError,
+    "structure",
+    Ok,
+    Self::check_orientation,
+    structure_work
+);
+
+fn fluid_work(fluid: &FluidSolver<2>) -> WorkDetails {
+    let motion = fluid.mesh_motion();
+    WorkDetails {
+        fallbacks: fluid.fallbacks(),
+        mesh_factorizations: motion.map_or(0, MeshMotion::factorizations),
+        mesh_solves: motion.map_or(0, MeshMotion::solves),
+        ..WorkDetails::default()
+    }
+}
+
+/// A tangent that is not positive definite is factored twice.
+fn structure_work(structure: &StructureSolver<2>) -> WorkDetails {
+    WorkDetails { fallbacks: structure.indefinite_tangents(), ..WorkDetails::default() }
+}

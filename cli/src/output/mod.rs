@@ -11,6 +11,10 @@
 //! | `summary.json` | counts and times of the whole run, written at its end |
 //! | `checkpoint.bin`, `checkpoint.previous.bin` | see [`crate::checkpoint`] |
 //!
+//! Records, tables and summary count the work of each field: assemblies of the residual, those of them with a tangent,
+//! factorizations of it, solves with it, factorizations that fell back to a slower method, and factorizations and solves
+//! for the motion of the mesh.
+//!
 //! Lines and rows go to the system one by one, so that a killed run keeps its history. A resumed run cuts every file
 //! behind the step of its checkpoint and goes on there: but for times, the files of a resumed run and of one that was
 //! never stopped are the same bytes. Times stand in the object `seconds` of a line and in columns that end in `_seconds`.
@@ -40,7 +44,7 @@ use lines::LineFile;
 use record::{Line, ProbeRow};
 
 pub use error::OutputError;
-pub use summary::{Clock, Ending, Seconds, Spent, Summary, Totals};
+pub use summary::{Clock, Ending, Seconds, Spent, Summary, Totals, Work};
 
 /// The resolved scene.
 pub const SCENE: &str = "scene.toml";

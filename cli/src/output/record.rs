@@ -3,7 +3,7 @@
 //! Times stand in the object `seconds` of a line and in columns whose names end in `_seconds`; nothing else depends on
 //! the machine.
 
-use partita_coupling::participant::{NewtonLimit, PhaseTimes};
+use partita_coupling::participant::{NewtonLimit, PhaseTimes, WorkDetails};
 use partita_coupling::record::{
     FieldRecord, FieldSeconds, FieldTotals, IterationRecord, Seconds, StepRecord,
 };
@@ -84,6 +84,9 @@ pub(super) fn iteration_columns() -> Vec<Column<IterationRecord>> {
         }),
     ]);
     columns.extend(seconds_columns());
+    columns.extend(detail_columns(|r: &R, name| {
+        r.fields.iter().find(|field| field.name == name).map(|field| field.details)
+    }));
     columns
 }
 
@@ -111,7 +114,28 @@ pub(super) fn step_columns() -> Vec<Column<StepRecord>> {
         add("solves", |field| field.solves);
     }
     columns.extend(seconds_columns());
+    columns.extend(detail_columns(|r: &R, name| {
+        r.fields.iter().find(|field| field.name == name).map(|field| field.details)
+    }));
     columns
+}
+
+/// The last columns of a table: more of each field's work.
+fn detail_columns<R: 'static>(details: fn(&R, &str) -> Option<WorkDetails>) -> Vec<Column<R>> {
+    type Count = fn(WorkDetails) -> usize;
+    let counts: [(&str, Count); 4] = [
+        ("tangents", |details| details.tangents),
+        ("fallbacks", |details| details.fallbacks),
+        ("mesh_factorizations", |details| details.mesh_factorizations),
+        ("mesh_solves", |details| details.mesh_solves),
+    ];
+    let of = |name: &'static str| {
+        let column = move |(quantity, count): (&str, Count)| {
+            Column::new(format!("{name}_{quantity}"), move |r: &R| details(r, name).map(count))
+        };
+        counts.map(column)
+    };
+    FIELDS.into_iter().flat_map(of).collect()
 }
 
 fn limit(limit: NewtonLimit) -> Cell {
@@ -149,7 +173,7 @@ impl Timed for StepRecord {
     }
 }
 
-/// The last columns of a table: whole calls, their phases, and what lies between the calls.
+/// Columns of times: whole calls, their phases, and what lies between the calls.
 fn seconds_columns<R: Timed + 'static>() -> Vec<Column<R>> {
     let mut columns = Vec::new();
     for name in FIELDS {

@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use partita_coupling::record::{FieldSeconds, StepRecord};
+use partita_coupling::WorkDetails;
+use partita_coupling::record::{FieldSeconds, FieldTotals, StepRecord};
 use serde::{Deserialize, Serialize};
 
 use super::table::{Cell, Table};
@@ -34,6 +35,10 @@ pub struct Totals {
     pub newton_fluid: usize,
     /// Newton iterations of the structure.
     pub newton_structure: usize,
+    /// Work of the fluid.
+    pub fluid: Work,
+    /// Work of the structure.
+    pub structure: Work,
     /// Where the solvers' time went; `output` stays zero here.
     pub seconds: Seconds,
 }
@@ -48,11 +53,47 @@ impl Totals {
         self.coupling_iterations += step.iterations;
         self.newton_fluid += newton("fluid");
         self.newton_structure += newton("structure");
+        for field in &step.fields {
+            match field.name.as_str() {
+                "fluid" => self.fluid.add(field),
+                "structure" => self.structure.add(field),
+                _ => {}
+            }
+        }
         for (field, seconds) in step.fields.iter().zip(&step.seconds.fields) {
             self.seconds.add_field(&field.name, seconds);
         }
         self.seconds.transfer += step.seconds.transfer;
         self.seconds.acceleration += step.seconds.acceleration;
+    }
+}
+
+/// What one field did in the finished steps of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Work {
+    /// Calls.
+    pub calls: usize,
+    /// Newton iterations.
+    pub newton: usize,
+    /// Assemblies of the residual.
+    pub assemblies: usize,
+    /// Numeric factorizations of the tangent.
+    pub factorizations: usize,
+    /// Linear solves with it.
+    pub solves: usize,
+    /// What stands behind these counts, and what they leave out.
+    #[serde(flatten)]
+    pub details: WorkDetails,
+}
+
+impl Work {
+    fn add(&mut self, step: &FieldTotals) {
+        self.calls += step.calls;
+        self.newton += step.newton;
+        self.assemblies += step.assemblies;
+        self.factorizations += step.factorizations;
+        self.solves += step.solves;
+        self.details += step.details;
     }
 }
 
@@ -175,6 +216,10 @@ pub struct Summary {
     pub newton_fluid: usize,
     /// Newton iterations of the structure.
     pub newton_structure: usize,
+    /// Work of the fluid.
+    pub fluid: Work,
+    /// Work of the structure.
+    pub structure: Work,
     /// Largest resident memory \[bytes\], of the last session.
     pub max_resident_bytes: Option<u64>,
     /// Wall-clock time \[s\], all sessions.
@@ -198,6 +243,8 @@ impl Summary {
             coupling_iterations: totals.coupling_iterations,
             newton_fluid: totals.newton_fluid,
             newton_structure: totals.newton_structure,
+            fluid: totals.fluid,
+            structure: totals.structure,
             max_resident_bytes: max_resident_bytes(),
             wall_seconds: spent.wall_seconds,
             cpu_seconds: spent.cpu_seconds,

@@ -3,6 +3,7 @@
 mod beam;
 mod benchmarks;
 mod checkpoint;
+mod effects;
 mod failures;
 mod linear_tank;
 mod output;

@@ -7,7 +7,7 @@ use std::path::Path;
 use partita::checkpoint::Stamp;
 use partita::output::fields::{Series, Snapshot, Tessellation};
 use partita::output::{Clock, Ending, OutputError, RunWriter, Seconds, remove_run};
-use partita_coupling::participant::{Change, Effort, NewtonLimit, PhaseTimes};
+use partita_coupling::participant::{Change, Effort, NewtonLimit, PhaseTimes, WorkDetails};
 use partita_coupling::record::{
     self, FieldRecord, FieldSeconds, IterationRecord, Record, StepHistory, StepRecord,
 };
@@ -30,6 +30,7 @@ fn field(name: &str, limit: NewtonLimit, newton: usize, change: f64) -> FieldRec
         entry_residual: 1.0 / 3.0,
         residual: 1e-11,
         changes: vec![Change::new("velocity", change), Change::new("pressure", change / 2.0)],
+        details: WorkDetails { tangents: newton, mesh_solves: 1, ..WorkDetails::default() },
         ..Effort::default()
     };
     FieldRecord::new(name, limit, effort)
@@ -212,6 +213,14 @@ fn tables_say_what_the_records_say() {
     structure_mesh_motion_seconds  0.0  0.0
     transfer_seconds  0.125  0.125
     acceleration_seconds  0.0625  0.0625
+    fluid_tangents  2  2
+    fluid_fallbacks  0  0
+    fluid_mesh_factorizations  0  0
+    fluid_mesh_solves  1  1
+    structure_tangents  1  0
+    structure_fallbacks  0  0
+    structure_mesh_factorizations  0  0
+    structure_mesh_solves  1  1
     ");
     insta::assert_snapshot!(table("steps.csv"), @r"
     step  2
@@ -243,6 +252,14 @@ fn tables_say_what_the_records_say() {
     structure_mesh_motion_seconds  0.0
     transfer_seconds  0.25
     acceleration_seconds  0.125
+    fluid_tangents  4
+    fluid_fallbacks  0
+    fluid_mesh_factorizations  0
+    fluid_mesh_solves  2
+    structure_tangents  1
+    structure_fallbacks  0
+    structure_mesh_factorizations  0
+    structure_mesh_solves  2
     ");
 }
 
@@ -399,6 +416,15 @@ fn no_second_is_counted_twice() {
         (&json["converged"], &json["steps"], &json["newton_fluid"]),
         (&true.into(), &2.into(), &6.into())
     );
+    // One, then two iterations: two Newton iterations in every call of the fluid, one in every other of the structure.
+    assert_eq!(
+        json["fluid"],
+        serde_json::json!({
+            "calls": 3, "newton": 6, "assemblies": 9, "factorizations": 6, "solves": 18,
+            "tangents": 6, "fallbacks": 0, "mesh_factorizations": 0, "mesh_solves": 3
+        })
+    );
+    assert_eq!((&json["structure"]["calls"], &json["structure"]["assemblies"]), (&3.into(), &5.into()));
     assert_eq!(json["seconds"].as_object().expect("a map").len(), 6);
     if cfg!(target_os = "linux") {
         assert!(json["max_resident_bytes"].as_u64().expect("Linux tells") > 1 << 20);

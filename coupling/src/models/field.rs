@@ -119,6 +119,7 @@ impl<F: Field> Model<F> {
             }
             self.field.solve_and_update(&self.committed, &mut self.trial);
             effort.newton += 1;
+            effort.details.tangents += 1;
             effort.factorizations += 1;
             effort.solves += 1;
             self.assemble(&mut effort)?;

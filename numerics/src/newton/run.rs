@@ -61,7 +61,7 @@ pub fn solve<P: Problem>(
         Limit::ToConvergence => settings.max_iterations,
     };
     let entry = assemble(problem, 0, most > 0, None)?;
-    let mut report = Report::at_entry(entry);
+    let mut report = Report::at_entry(entry, most > 0);
     let mut watch = Watch::new(entry);
     report.converged = !lagged && bound.met(&entry);
     while !report.converged && !report.stopped_by_callback && report.iterations < most {
@@ -70,7 +70,7 @@ pub fn solve<P: Problem>(
         problem.solve_and_update().map_err(|source| Failure::Problem { iteration: index, source })?;
         let is_last = index == most || (lagged && bound.met(&before));
         let residual = assemble(problem, index, !is_last, Some((entry, before)))?;
-        report.count(residual);
+        report.count(residual, !is_last);
         report.converged = bound.met(if lagged { &before } else { &residual });
         watch.check_growth(index, residual, settings.divergence_factor)?;
         report.stagnated = watch.stands_still(residual) && !report.converged && !bound.met(&residual);
@@ -99,10 +99,11 @@ fn assemble<P: Problem>(
 }
 
 impl Report {
-    fn at_entry(entry: ResidualNorm) -> Self {
+    fn at_entry(entry: ResidualNorm, with_tangent: bool) -> Self {
         Self {
             iterations: 0,
             assemblies: 1,
+            tangents: usize::from(with_tangent),
             factorizations: 0,
             solves: 0,
             entry,
@@ -113,9 +114,10 @@ impl Report {
         }
     }
 
-    fn count(&mut self, exit: ResidualNorm) {
+    fn count(&mut self, exit: ResidualNorm, with_tangent: bool) {
         self.iterations += 1;
         self.assemblies += 1;
+        self.tangents += usize::from(with_tangent);
         self.factorizations += 1;
         self.solves += 1;
         self.exit = exit;

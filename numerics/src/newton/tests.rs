@@ -104,7 +104,9 @@ fn report_counts_every_piece_of_work() {
     let report = run(&mut Curves::new(2.0), Limit::ToConvergence);
     assert_eq!(report.iterations, 4);
     assert_eq!((report.factorizations, report.solves), (4, 4));
-    assert_eq!(report.assemblies, 5);
+    assert_eq!((report.assemblies, report.tangents), (5, 5));
+    let limited = run(&mut Curves::new(2.0), Limit::AtMost(2));
+    assert_eq!((limited.assemblies, limited.tangents, limited.factorizations), (3, 2, 2));
 }
 
 #[test]

@@ -14,7 +14,7 @@ use partita_coupling::port::total_len;
 use partita_coupling::{
     Block, Change, Effort, NewtonLimit, Participant, ParticipantError, PhaseTimes, Step, WorkDetails,
 };
-use partita_numerics::newton::{self, Bound, Failure, Limit, Report, ResidualNorm, Verdict};
+use partita_numerics::newton::{self, Bound, Failure, KeptTangent, Limit, Report, ResidualNorm, Verdict};
 use partita_numerics::norms::{norm2, relative, relative_change};
 use partita_numerics::phases::PhaseSeconds;
 use serde::{Deserialize, Serialize};
@@ -42,6 +42,8 @@ pub struct AdapterState<S> {
     pub field: S,
     /// The interface output of the last call.
     pub last_output: Vec<f64>,
+    /// The tangent whose factor the next step may use.
+    pub tangent: Option<KeptTangent>,
 }
 
 impl<F: Field> Adapter<F> {
@@ -63,7 +65,11 @@ impl<F: Field> Adapter<F> {
     /// What must be saved to continue.
     #[must_use]
     pub fn state(&self) -> AdapterState<F::State> {
-        AdapterState { field: self.field.state(), last_output: self.last_output.clone() }
+        AdapterState {
+            field: self.field.state(),
+            last_output: self.last_output.clone(),
+            tangent: self.field.kept_tangent(),
+        }
     }
 
     /// Continues from a saved state, bit for bit.
@@ -72,6 +78,9 @@ impl<F: Field> Adapter<F> {
     /// When the state belongs to another discretization.
     pub fn restore(&mut self, state: &AdapterState<F::State>) -> Result<(), F::Error> {
         self.field.restore(&state.field)?;
+        if let Some(tangent) = &state.tangent {
+            self.field.restore_tangent(tangent)?;
+        }
         self.last_output.copy_from_slice(&state.last_output);
         self.told = self.field.work();
         Ok(())

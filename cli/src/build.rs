@@ -84,6 +84,7 @@ fn newton(newton: &schema::Newton) -> newton::Settings {
             schema::Check::Lagged => Check::Lagged,
         },
         max_iterations: newton.max_iterations.get(),
+        reuse_factor: newton.reuse_factor.map(schema::Fraction::get),
         ..newton::Settings::default()
     }
 }

@@ -34,7 +34,7 @@ const TEMPORARY: &str = "checkpoint.tmp.bin";
 pub(crate) const FILES: [&str; 3] = [LATEST, PREVIOUS, TEMPORARY];
 const MAGIC: [u8; 8] = *b"PARTITA\n";
 /// Rises with every change of the layout or of a state that a checkpoint holds.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const PREFIX: usize = 28;
 
 /// When a checkpoint was taken, and what the run had cost by then.

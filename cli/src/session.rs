@@ -9,7 +9,7 @@ use partita_fluid::FluidState;
 use partita_structure::StructureState;
 use serde::{Deserialize, Serialize};
 
-use crate::adapt::SlotState;
+use crate::adapt::{Field, SlotState};
 use crate::build::{self, BuildError, Run};
 use crate::checkpoint::{self, CheckpointError, Stamp};
 use crate::draw::Drawing;
@@ -269,9 +269,16 @@ fn estimate(run: &Run, resolved: &Resolved, drawing: &Drawing, options: Options)
         let bytes = checkpoint::encoded_len(&stamp, &RunState::of(run, resolved));
         // Where a run is taken up there are two already, which the new ones replace.
         let count = if run.clock().steps == 0 { space::CHECKPOINTS } else { 1 };
-        estimate = estimate.with_checkpoints(count, bytes.unwrap_or_default());
+        estimate = estimate.with_checkpoints(count, bytes.unwrap_or_default() + most_kept_bytes(run));
     }
     estimate
+}
+
+/// Bytes of the tangents that a checkpoint of `run` may hold once there are factors.
+fn most_kept_bytes(run: &Run) -> usize {
+    let entries =
+        run.first().field().map_or(0, Field::most_kept) + run.second().field().map_or(0, Field::most_kept);
+    entries * size_of::<f64>()
 }
 
 /// What happened, without the hint.

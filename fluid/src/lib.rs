@@ -25,6 +25,7 @@ mod assembly;
 mod boundary;
 mod error;
 mod force;
+mod kept;
 pub mod kernel;
 pub mod model;
 mod probe;

@@ -2,6 +2,7 @@
 
 use partita_mesh::Mesh;
 use partita_mesh::motion::{MeshMotion, MotionQuality};
+use partita_numerics::newton::FactorLog;
 use partita_numerics::phases::PhaseSeconds;
 use partita_numerics::{Factor, Method, Pattern, newton};
 
@@ -63,6 +64,7 @@ pub struct FluidSolver<const D: usize> {
     pub(crate) motion: Option<MeshMotion<D>>,
     pub(crate) assembly: Assembly,
     pub(crate) factor: Factor,
+    pub(crate) factor_log: FactorLog,
     /// The last Newton increment on all dofs.
     pub(crate) increment: Vec<f64>,
     pub(crate) phases: PhaseSeconds,
@@ -119,6 +121,7 @@ impl<const D: usize> FluidSolver<D> {
             motion,
             assembly,
             factor,
+            factor_log: FactorLog::default(),
         })
     }
 

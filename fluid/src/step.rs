@@ -1,6 +1,6 @@
 //! One time step: begin, impose, iterate, commit or rewind.
 
-use partita_numerics::newton::{self, Failure, Limit, Problem, Report, ResidualNorm, Verdict};
+use partita_numerics::newton::{self, Failure, KeptFactor, Limit, Problem, Report, ResidualNorm, Verdict};
 use partita_numerics::phases::timed;
 use partita_numerics::time::Bdf;
 
@@ -122,8 +122,9 @@ impl<const D: usize> FluidSolver<D> {
         self.trial.committed_mesh_velocity.copy_from_slice(&self.trial.mesh_velocity);
     }
 
-    /// Gives the step up: back to the committed state.
+    /// Gives the step up: back to the committed state, without a factor.
     pub fn rewind(&mut self) {
+        self.factor_log.forget();
         self.trial.reset(&self.mesh, &self.committed);
     }
 
@@ -211,6 +212,9 @@ impl<const D: usize> Problem for FluidSolver<D> {
     /// Outside a step.
     fn assemble(&mut self, with_tangent: bool) -> Result<ResidualNorm, FluidError> {
         assert!(self.trial.step.is_some(), "begin_step comes before assemble");
+        if with_tangent {
+            self.factor_log.forget();
+        }
         let iterate = Iterate {
             flow: &self.trial.flow,
             cells: self.mesh.cells(),
@@ -228,9 +232,23 @@ impl<const D: usize> Problem for FluidSolver<D> {
 
     fn solve_and_update(&mut self) -> Result<(), FluidError> {
         let time = self.end_of_step();
-        let Self { factor, assembly, phases, increment, frames, trial, .. } = self;
+        let Self { factor, assembly, phases, .. } = self;
         timed(&mut phases.factorization, || factor.refactor(&assembly.tangent))
             .map_err(|source| FluidError::Factorization { time, source })?;
+        self.factor_log.factored(self.coefficients());
+        self.solve_with_kept_factor()
+    }
+
+    fn kept_factor(&self) -> KeptFactor {
+        self.worth_of_factor()
+    }
+
+    fn drop_factor(&mut self) {
+        self.factor_log.forget();
+    }
+
+    fn solve_with_kept_factor(&mut self) -> Result<(), FluidError> {
+        let Self { factor, assembly, phases, increment, frames, trial, .. } = self;
         timed(&mut phases.solve, || factor.solve(&mut assembly.right_hand_side));
         increment.fill(0.0);
         assembly.dofs.add_scaled(1.0, &assembly.right_hand_side, increment);

@@ -3,7 +3,10 @@
 //! A field implements [`Problem`] and calls [`solve`]; how many iterations a call may take is the caller's
 //! [`Limit`], and a callback after each iteration may stop it early.
 
+#[cfg(test)]
+mod chord_tests;
 mod failure;
+mod kept;
 mod norm;
 mod run;
 mod settings;
@@ -11,6 +14,7 @@ mod settings;
 mod tests;
 
 pub use failure::Failure;
+pub use kept::{Coefficients, FactorLog, KeptFactor, KeptTangent};
 pub use norm::{Bound, ResidualNorm};
 pub use run::solve;
 pub use settings::{Check, Limit, Settings};
@@ -33,6 +37,24 @@ pub trait Problem {
     ///
     /// If the tangent is singular.
     fn solve_and_update(&mut self) -> Result<(), Self::Error>;
+
+    /// What the factor of the last [`solve_and_update`](Self::solve_and_update) is worth now. Unless a problem says
+    /// otherwise it keeps none.
+    fn kept_factor(&self) -> KeptFactor {
+        KeptFactor::Missing
+    }
+
+    /// Solves K ds = -R with the kept factor of K and adds ds to the iterate.
+    ///
+    /// # Errors
+    ///
+    /// As [`solve_and_update`](Self::solve_and_update), which it is where no factor is kept.
+    fn solve_with_kept_factor(&mut self) -> Result<(), Self::Error> {
+        self.solve_and_update()
+    }
+
+    /// The kept factor has turned out to be of no use: [`kept_factor`](Self::kept_factor) is now `Missing`.
+    fn drop_factor(&mut self) {}
 }
 
 /// What a callback wants after an iteration.

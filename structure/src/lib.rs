@@ -36,6 +36,7 @@ pub mod step;
 
 mod assembly;
 mod factor;
+mod kept;
 mod newton;
 mod probe;
 mod tensor;

@@ -1,6 +1,6 @@
 //! A structure as a nonlinear system for d_{n+1}.
 
-use partita_numerics::newton::{Problem, ResidualNorm};
+use partita_numerics::newton::{KeptFactor, Problem, ResidualNorm};
 use partita_numerics::norms::norm2_at;
 use partita_numerics::phases::{Stopwatch, timed};
 
@@ -15,6 +15,9 @@ impl<const D: usize> Problem for StructureSolver<D> {
 
     /// Relative is `|R| / max(|f_int|, |C v|, |M a|, |f_ext|)`, all over the free dofs, 0/0 = 0.
     fn assemble(&mut self, with_tangent: bool) -> Result<ResidualNorm, StructureError> {
+        if with_tangent {
+            self.factor_log.forget();
+        }
         let watch = Stopwatch::start();
         let residual = self.evaluate(with_tangent).map(|()| self.residual_norm());
         watch.stop(&mut self.phases.assembly);
@@ -22,10 +25,24 @@ impl<const D: usize> Problem for StructureSolver<D> {
     }
 
     fn solve_and_update(&mut self) -> Result<(), StructureError> {
-        let Work { residual, tangent, increment, .. } = &mut self.work;
+        let (pattern, tangent) = (self.assembly.pattern(), &self.work.tangent);
+        timed(&mut self.phases.factorization, || self.factor.refactor(pattern, tangent))?;
+        self.factor_log.factored(self.coefficients());
+        self.solve_with_kept_factor()
+    }
+
+    fn kept_factor(&self) -> KeptFactor {
+        self.worth_of_factor()
+    }
+
+    fn drop_factor(&mut self) {
+        self.factor_log.forget();
+    }
+
+    fn solve_with_kept_factor(&mut self) -> Result<(), StructureError> {
+        let Work { residual, increment, .. } = &mut self.work;
         let dofs = self.assembly.dofs();
         dofs.gather(residual, increment);
-        timed(&mut self.phases.factorization, || self.factor.refactor(self.assembly.pattern(), tangent))?;
         timed(&mut self.phases.solve, || self.factor.solve(increment));
         for entry in &mut *increment {
             *entry = -*entry;

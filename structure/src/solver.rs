@@ -1,7 +1,7 @@
 //! The solver of a structure: built once, then step after step.
 
 use partita_iga::Spline;
-use partita_numerics::newton::{self, Failure, Limit, Report, Verdict};
+use partita_numerics::newton::{self, FactorLog, Failure, Limit, Report, Verdict};
 use partita_numerics::{DofMap, Pattern, PhaseSeconds};
 
 use crate::assembly::{Assembly, Forces, Local, Motion};
@@ -56,6 +56,7 @@ pub struct StructureSolver<const D: usize> {
     scheme: Scheme,
     pub(crate) assembly: Assembly<D>,
     pub(crate) factor: TangentFactor,
+    pub(crate) factor_log: FactorLog,
     loads: Loads<D>,
     parts: [Part; 1],
     pub(crate) committed: StructureState,
@@ -115,6 +116,7 @@ impl<const D: usize> StructureSolver<D> {
         let state = StructureState::at_rest(space.node_count() * D, interface_points.len() * D);
         Ok(Self {
             factor: TangentFactor::new(assembly.pattern())?,
+            factor_log: FactorLog::default(),
             loads: Loads::new(model.body_force.clone(), &assembly, interface_points),
             work: Work::new(&assembly),
             committed: state.clone(),
@@ -182,8 +184,9 @@ impl<const D: usize> StructureSolver<D> {
         self.committed.copy_from(&self.trial);
     }
 
-    /// Gives the step up: the trial state becomes the committed one again.
+    /// Gives the step up: the trial state becomes the committed one again, without a factor.
     pub fn rewind(&mut self) {
+        self.factor_log.forget();
         self.trial.copy_from(&self.committed);
     }
 
@@ -362,6 +365,7 @@ impl<const D: usize> StructureSolver<D> {
             residual[dof] = self.trial.external_force[dof] - forces.internal[dof] - forces.damping[dof];
         }
         self.assembly.dofs().gather(residual, increment);
+        self.factor_log.forget();
         self.factor.refactor(self.assembly.pattern(), self.assembly.mass())?;
         self.factor.solve(increment);
         self.assembly.dofs().add_scaled(1.0, increment, &mut self.trial.acceleration);

@@ -1,7 +1,7 @@
 //! The primitives that the adapter composes, under one name for both fields.
 
 use partita_coupling::WorkDetails;
-use partita_numerics::newton::{self, Problem};
+use partita_numerics::newton::{self, KeptTangent, Problem};
 use partita_numerics::phases::PhaseSeconds;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -53,6 +53,18 @@ pub trait Field: Problem {
     /// # Errors
     /// When the state belongs to another discretization.
     fn restore(&mut self, state: &Self::State) -> Result<(), Self::Error>;
+
+    /// Most entries of a tangent that a checkpoint will hold.
+    fn most_kept(&self) -> usize;
+
+    /// The tangent whose factor the next step may use.
+    fn kept_tangent(&self) -> Option<KeptTangent>;
+
+    /// Factors such a tangent; comes after [`restore`](Self::restore).
+    ///
+    /// # Errors
+    /// When it belongs to another discretization, or cannot be factored.
+    fn restore_tangent(&mut self, kept: &KeptTangent) -> Result<(), Self::Error>;
 
     /// The current iterate, all dofs.
     fn values(&self) -> &[f64];

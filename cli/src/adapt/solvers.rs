@@ -5,7 +5,7 @@ use std::convert::identity;
 use partita_coupling::WorkDetails;
 use partita_fluid::{FluidError, FluidSolver, FluidState};
 use partita_mesh::motion::MeshMotion;
-use partita_numerics::newton;
+use partita_numerics::newton::{self, KeptTangent};
 use partita_numerics::phases::PhaseSeconds;
 use partita_structure::{StructureError, StructureSolver, StructureState};
 
@@ -43,6 +43,15 @@ macro_rules! field {
             }
             fn restore(&mut self, state: &$state) -> Result<(), $error> {
                 Self::restore(self, state)
+            }
+            fn most_kept(&self) -> usize {
+                if self.keeps_factor() { self.tangent().1.len() } else { 0 }
+            }
+            fn kept_tangent(&self) -> Option<KeptTangent> {
+                Self::kept_tangent(self)
+            }
+            fn restore_tangent(&mut self, kept: &KeptTangent) -> Result<(), $error> {
+                Self::restore_tangent(self, kept)
             }
             fn values(&self) -> &[f64] {
                 Self::values(self)

@@ -145,11 +145,47 @@ fn reaching_the_iteration_bound_fails_the_run_and_keeps_its_history() {
 
 #[test]
 fn a_resumed_run_equals_the_uninterrupted_one() {
+    resumed_equals_uninterrupted(&[]);
+}
+
+#[test]
+fn factors_that_outlive_a_checkpoint_do_not_change_a_resumed_run() {
+    let steps = resumed_equals_uninterrupted(&[
+        "fluid.newton.reuse_factor=0.3",
+        "structure.newton.reuse_factor=0.3",
+        "coupling.newton={fixed={}}",
+    ]);
+    // Else the test would show nothing: steps that use the factor of an earlier one.
+    for field in ["fluid_factorizations", "structure_factorizations"] {
+        assert!(column(&steps, field)[1..].contains(&"0".to_owned()), "{field}: {:?}", column(&steps, field));
+    }
+}
+
+#[test]
+fn the_factor_of_a_linear_structure_does_not_change_a_resumed_run() {
+    let steps = resumed_equals_uninterrupted(&[
+        "structure.material={linear_elastic={young_modulus=5e6,poisson_ratio=0.3}}",
+        "coupling.newton={fixed={}}",
+    ]);
+    let factorizations: usize =
+        column(&steps, "structure_factorizations").iter().map(|n| n.parse::<usize>().expect("a count")).sum();
+    assert_eq!(factorizations, 1);
+}
+
+/// The column of a table without times.
+fn column(table: &[String], name: &str) -> Vec<String> {
+    let mut rows = table.iter().map(|row| row.split(','));
+    let index = rows.next().and_then(|mut header| header.position(|column| column == name)).expect(name);
+    rows.map(|mut row| row.nth(index).expect("a cell").to_owned()).collect()
+}
+
+/// Runs the tank with further settings as a whole and in parts; returns the rows of `steps.csv`.
+fn resumed_equals_uninterrupted(further: &[&str]) -> Vec<String> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
     let [fluid, structure] = limits("2", "3");
-    let tank =
-        tank(&[&fluid, &structure, "time.steps=9", "output.checkpoint_every=4", "output.fields_every=3"]);
+    let settings = [&fluid, &structure, "time.steps=9", "output.checkpoint_every=4", "output.fields_every=3"];
+    let tank = tank(&[&settings, further].concat());
     start(&tank, &whole, None).finish().expect("the whole run converges");
     start(&tank, &parts, Some(6)).finish().expect("the first part converges");
     // A killed run has written beyond its checkpoint: the records of step 6 and a line that broke off. It goes on
@@ -168,6 +204,7 @@ fn a_resumed_run_equals_the_uninterrupted_one() {
     for name in ["fields/fluid-000009.vtu", "fields/structure-000009.vtu"] {
         assert!(fs::read(whole.join(name)).expect(name) == fs::read(parts.join(name)).expect(name), "{name}");
     }
+    without_times(&whole.join("steps.csv"))
 }
 
 #[test]
@@ -203,7 +240,8 @@ fn without_times(path: &Path) -> Vec<String> {
             let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
             let header = rows.next().expect("a header");
             let kept: Vec<usize> = (0..header.len()).filter(|&i| !header[i].ends_with("_seconds")).collect();
-            rows.map(|row| kept.iter().map(|&i| row[i]).collect::<Vec<_>>().join(",")).collect()
+            let timeless = |row: Vec<&str>| kept.iter().map(|&i| row[i]).collect::<Vec<_>>().join(",");
+            [header.clone()].into_iter().chain(rows).map(timeless).collect()
         }
         _ => text.lines().map(str::to_owned).collect(),
     }

@@ -59,6 +59,15 @@ pub enum Bound {
 }
 
 impl Bound {
+    /// The part of `residual` that is compared with the bound.
+    #[must_use]
+    pub fn measure(&self, residual: &ResidualNorm) -> f64 {
+        match self {
+            Self::Relative(_) => residual.relative,
+            Self::Absolute(_) => residual.absolute,
+        }
+    }
+
     /// Whether `residual` lies below the bound.
     #[must_use]
     pub fn met(&self, residual: &ResidualNorm) -> bool {

@@ -1,6 +1,6 @@
 //! The loop itself.
 
-use super::{Check, Failure, Iteration, Limit, Problem, Report, ResidualNorm, Settings, Verdict};
+use super::{Check, Failure, Iteration, KeptFactor, Limit, Problem, Report, ResidualNorm, Settings, Verdict};
 
 /// Runs Newton iterations on `problem` from its current iterate until the bound is met, `limit` is reached
 /// or the callback `after` says stop.
@@ -9,7 +9,7 @@ use super::{Check, Failure, Iteration, Limit, Problem, Report, ResidualNorm, Set
 /// evaluate R at the entry
 /// repeat   Before: |R| below its bound? converged
 ///          limit reached? leave
-///          (dR/ds) ds = -R,  s <- s + ds,  evaluate R
+///          (dR/ds) ds = -R,  s <- s + ds,  evaluate R       (with a kept factor where it serves)
 ///          not finite, exploded, standing still? fail
 ///          Lagged: |R| before this solve below its bound? converged
 ///          callback says stop? leave
@@ -17,7 +17,9 @@ use super::{Check, Failure, Iteration, Limit, Problem, Report, ResidualNorm, Set
 ///
 /// The entry residual is evaluated in every call, whatever an earlier call left behind. The callback sees
 /// every iteration, the last one included. The residual of the report, and all that the problem assembled
-/// with it, belongs to the last iterate. The tangent is assembled only where another iteration can follow.
+/// with it, belongs to the last iterate. The tangent is assembled only where another iteration can follow and needs it:
+/// a linear problem is factored once, and with [`Settings::reuse_factor`] the residual decides first whether the last
+/// factor serves on, so that R is evaluated once more where it does not.
 ///
 /// ```
 /// use partita_numerics::newton::{self, Limit, Problem, ResidualNorm, Settings, Verdict};
@@ -60,17 +62,30 @@ pub fn solve<P: Problem>(
         Limit::AtMost(iterations) => iterations,
         Limit::ToConvergence => settings.max_iterations,
     };
-    let entry = assemble(problem, 0, most > 0, None)?;
-    let mut report = Report::at_entry(entry, most > 0);
+    let mut has_tangent = most > 0 && needs_tangent(problem, settings);
+    let entry = assemble(problem, 0, has_tangent, None)?;
+    let mut report = Report::at_entry(entry, has_tangent);
     let mut watch = Watch::new(entry);
     report.converged = !lagged && bound.met(&entry);
     while !report.converged && !report.stopped_by_callback && report.iterations < most {
         let index = report.iterations + 1;
         let before = report.exit;
-        problem.solve_and_update().map_err(|source| Failure::Problem { iteration: index, source })?;
+        let refactors = needs_tangent(problem, settings);
+        if refactors && !has_tangent {
+            assemble(problem, report.iterations, true, Some((entry, before)))?;
+            report.count_assembly(true);
+        }
+        let solved = if refactors { problem.solve_and_update() } else { problem.solve_with_kept_factor() };
+        solved.map_err(|source| Failure::Problem { iteration: index, source })?;
+        report.count_solve(refactors);
         let is_last = index == most || (lagged && bound.met(&before));
-        let residual = assemble(problem, index, !is_last, Some((entry, before)))?;
-        report.count(residual, !is_last);
+        has_tangent = !is_last && needs_tangent(problem, settings);
+        let residual = assemble(problem, index, has_tangent, Some((entry, before)))?;
+        report.count_assembly(has_tangent);
+        report.exit = residual;
+        if is_slow(settings, &before, &residual) {
+            problem.drop_factor();
+        }
         report.converged = bound.met(if lagged { &before } else { &residual });
         watch.check_growth(index, residual, settings.divergence_factor)?;
         report.stagnated = watch.stands_still(residual) && !report.converged && !bound.met(&residual);
@@ -85,6 +100,23 @@ pub fn solve<P: Problem>(
         return Err(Failure::TooManyIterations { iterations, entry, residual, bound });
     }
     Ok(report)
+}
+
+/// Whether the next solve has to factor the tangent of its iterate.
+fn needs_tangent<P: Problem>(problem: &P, settings: &Settings) -> bool {
+    match problem.kept_factor() {
+        KeptFactor::Missing => true,
+        KeptFactor::Earlier => settings.reuse_factor.is_none(),
+        KeptFactor::Exact => false,
+    }
+}
+
+/// Whether an iteration fell short of the decrease that a reused factor has to bring. What lies below the bound cannot
+/// be asked to fall on.
+fn is_slow(settings: &Settings, before: &ResidualNorm, after: &ResidualNorm) -> bool {
+    let Settings { bound, reuse_factor, .. } = settings;
+    let falls = |wanted: f64| bound.measure(after) < wanted * bound.measure(before);
+    reuse_factor.is_some_and(|wanted| !falls(wanted)) && !bound.met(after)
 }
 
 /// Assembles and refuses a residual that is not finite.
@@ -114,13 +146,15 @@ impl Report {
         }
     }
 
-    fn count(&mut self, exit: ResidualNorm, with_tangent: bool) {
-        self.iterations += 1;
+    fn count_assembly(&mut self, with_tangent: bool) {
         self.assemblies += 1;
         self.tangents += usize::from(with_tangent);
-        self.factorizations += 1;
+    }
+
+    fn count_solve(&mut self, with_factorization: bool) {
+        self.iterations += 1;
+        self.factorizations += usize::from(with_factorization);
         self.solves += 1;
-        self.exit = exit;
     }
 }
 

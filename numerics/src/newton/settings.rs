@@ -32,16 +32,22 @@ pub struct Settings {
     /// Far above one: the first iteration of a slender structure may well raise the residual by orders of
     /// magnitude before it falls.
     pub divergence_factor: f64,
+    /// Chord Newton: the factor of an earlier tangent serves as long as each iteration brings the residual, as the bound
+    /// measures it, below this part of what it was, between 0 and 1; across calls and steps, too, where the problem
+    /// [keeps](super::Problem::kept_factor) its factor. `None` factors in every iteration. The factor of a linear
+    /// problem serves anyway.
+    pub reuse_factor: Option<f64>,
 }
 
 impl Default for Settings {
-    /// Relative bound 1e-10, checked before each solve, at most 50 iterations, diverged at 1e10.
+    /// Relative bound 1e-10, checked before each solve, at most 50 iterations, diverged at 1e10, no factor used twice.
     fn default() -> Self {
         Self {
             bound: Bound::Relative(1e-10),
             check: Check::Before,
             max_iterations: 50,
             divergence_factor: 1e10,
+            reuse_factor: None,
         }
     }
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::numbers::{Count, Positive};
+use super::numbers::{Count, Fraction, Positive};
 
 /// How one field's nonlinear equations are solved.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -15,6 +15,10 @@ pub struct Newton {
     pub check: Check,
     /// Iterations after which a call that must converge is an error. Default: 50.
     pub max_iterations: Count,
+    /// Chord Newton: the last factored tangent serves on while every iteration brings the residual below this part of what
+    /// it was. Default: none; every iteration factors its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reuse_factor: Option<Fraction>,
 }
 
 impl Default for Newton {
@@ -23,6 +27,7 @@ impl Default for Newton {
             tolerance: Tolerance::Relative(Positive::new(1e-10).expect("1e-10 is positive")),
             check: Check::Before,
             max_iterations: Count::literal(50),
+            reuse_factor: None,
         }
     }
 }

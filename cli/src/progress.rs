@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::IsTerminal;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use partita_coupling::record::{IterationRecord, StepRecord};
+use partita_coupling::record::IterationRecord;
 
 /// A bar over the steps, with the counts of the step being solved and the time left.
 ///
@@ -43,9 +43,9 @@ impl Progress {
         self.bar.set_message(message);
     }
 
-    /// Moves on by a step.
-    pub fn step(&mut self, record: &StepRecord) {
-        self.bar.set_position(record.step as u64);
+    /// Shows that so many steps are done.
+    pub fn reach(&self, steps: usize) {
+        self.bar.set_position(steps as u64);
     }
 
     /// Writes a line above the bar, on stderr.

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use partita_coupling::{IterationRecord, MarchState, Observer, StepError, StepRecord};
+use partita_coupling::{IterationRecord, MarchState, Observer, RetryRecord, StepError, StepRecord};
 use partita_fluid::FluidState;
 use partita_structure::StructureState;
 use serde::{Deserialize, Serialize};
@@ -153,7 +153,7 @@ impl<'a> Session<'a> {
     pub fn finish(mut self) -> Result<Summary, RunError> {
         let last =
             self.options.steps.map_or(self.scene.time.steps.get(), |s| s.min(self.scene.time.steps.get()));
-        let mut progress = Progress::new(last, self.run.clock().steps, self.options.quiet);
+        let mut progress = Progress::new(last, self.done(), self.options.quiet);
         if let Some(note) = &self.note {
             progress.say(note);
         }
@@ -198,26 +198,36 @@ impl<'a> Session<'a> {
     }
 
     fn march_to(&mut self, last: usize, progress: &mut Progress) -> Result<Ending, RunError> {
-        while self.run.clock().steps < last {
+        while self.done() < last {
             self.step(progress)?;
             let stop = self.options.stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
-            if stop && self.run.clock().steps < last {
+            if stop && self.done() < last {
                 return Ok(Ending::Interrupted);
             }
         }
-        let done = self.run.clock().steps >= self.scene.time.steps.get();
-        Ok(if done { Ending::Completed } else { Ending::Stopped })
+        let completed = self.done() >= self.scene.time.steps.get();
+        Ok(if completed { Ending::Completed } else { Ending::Stopped })
+    }
+
+    /// Steps of the scene that are done; where some were halved, the run has made more.
+    fn done(&self) -> usize {
+        self.scene.time.sizes().done(&self.run.clock())
     }
 
     fn step(&mut self, progress: &mut Progress) -> Result<(), RunError> {
-        let mut watch = Watch { writer: &mut self.writer, progress, refused: None };
-        let result = self.run.step(self.scene.time.step.get(), &mut watch);
+        let sizes = self.scene.time.sizes();
+        let mut watch =
+            Watch { writer: &mut self.writer, progress, quiet: self.options.quiet, refused: None };
+        let result = self.run.step_or_halve(&sizes, &mut watch);
         if let Some(refused) = watch.refused {
             return Err(refused.into());
         }
         let step = result?.step;
         self.writer.probes(step, self.run.clock().time, &self.probes.values(&self.run))?;
-        let due = |every: usize| every > 0 && step.is_multiple_of(every);
+        let clock = self.run.clock();
+        let (done, on_grid) = (sizes.done(&clock), sizes.on_grid(&clock));
+        progress.reach(done);
+        let due = |every: usize| every > 0 && on_grid && done.is_multiple_of(every);
         if due(self.scene.output.fields_every) {
             self.draw()?;
         }
@@ -258,7 +268,10 @@ const ITERATIONS_A_STEP: usize = 8;
 fn estimate(run: &Run, resolved: &Resolved, drawing: &Drawing, options: Options) -> Estimate {
     let scene = &resolved.scene;
     let all = scene.time.steps.get();
-    let steps = options.steps.map_or(all, |steps| steps.min(all)).saturating_sub(run.clock().steps);
+    let steps = options
+        .steps
+        .map_or(all, |steps| steps.min(all))
+        .saturating_sub(scene.time.sizes().done(&run.clock()));
     let iterations = if scene.coupling.is_some() { ITERATIONS_A_STEP } else { 1 };
     let mut estimate = Estimate::of_records(steps, iterations);
     if let Some(files) = steps.checked_div(scene.output.fields_every) {
@@ -337,6 +350,7 @@ fn decisive(resolved: &Resolved) -> String {
 struct Watch<'a> {
     writer: &'a mut RunWriter,
     progress: &'a mut Progress,
+    quiet: bool,
     refused: Option<OutputError>,
 }
 
@@ -357,6 +371,16 @@ impl Observer for Watch<'_> {
 
     fn step_finished(&mut self, record: &StepRecord) {
         self.write(|writer| writer.step(record));
-        self.progress.step(record);
+    }
+
+    fn step_retried(&mut self, record: &RetryRecord) {
+        self.write(|writer| writer.retry(record));
+        if self.quiet {
+            return;
+        }
+        self.progress.say(&format!(
+            "step {} (t = {} s) of {} s failed, goes on with {} s: {}",
+            record.step, record.time, record.dt, record.next_dt, record.cause
+        ));
     }
 }

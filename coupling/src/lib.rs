@@ -57,6 +57,7 @@ pub mod policy;
 pub mod port;
 pub mod predict;
 pub mod record;
+pub mod retry;
 pub mod transfer;
 mod vector;
 
@@ -71,4 +72,5 @@ pub use policy::{Limits, NewtonPolicy, Policy};
 pub use port::{Block, Quantity};
 pub use predict::Predictor;
 pub use record::{FieldRecord, IterationRecord, Record, StepHistory, StepRecord};
+pub use retry::{RetryRecord, StepSizes};
 pub use transfer::{IdentityTransfer, MatrixTransfer, Transfer};

@@ -1,6 +1,7 @@
 //! Watching a run.
 
 use crate::record::{IterationRecord, Record, StepRecord};
+use crate::retry::RetryRecord;
 
 /// Is told of every iteration and of every finished step, as soon as it is over.
 pub trait Observer {
@@ -9,6 +10,9 @@ pub trait Observer {
 
     /// A step is accepted.
     fn step_finished(&mut self, record: &StepRecord);
+
+    /// A step has failed and is repeated with half its size.
+    fn step_retried(&mut self, _record: &RetryRecord) {}
 }
 
 /// Watches nothing.
@@ -24,5 +28,8 @@ impl Observer for Vec<Record> {
     }
     fn step_finished(&mut self, record: &StepRecord) {
         self.push(Record::Step(record.clone()));
+    }
+    fn step_retried(&mut self, record: &RetryRecord) {
+        self.push(Record::Retry(record.clone()));
     }
 }

@@ -9,8 +9,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::accelerate::Proposal;
 use crate::participant::{Change, Effort, NewtonLimit, PhaseTimes, Step, WorkDetails};
+use crate::retry::RetryRecord;
 
-/// One line of a run's record: `{"iteration": {...}}` or `{"step": {...}}`.
+/// One line of a run's record: `{"iteration": {...}}`, `{"step": {...}}` or `{"retry": {...}}`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Record {
@@ -18,6 +19,8 @@ pub enum Record {
     Iteration(IterationRecord),
     /// A finished step.
     Step(StepRecord),
+    /// A step that failed and is repeated with half its size.
+    Retry(RetryRecord),
 }
 
 /// One call of one field.

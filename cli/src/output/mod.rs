@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `scene.toml` | the scene with every default written out; it runs again as it is |
 //! | `input/` | the files that the scene names, as they were read |
-//! | `run.jsonl` | a line for each coupling iteration and one for each step |
+//! | `run.jsonl` | a line for each coupling iteration, for each step, and for each step that failed and was repeated |
 //! | `iterations.csv`, `steps.csv` | the same, as tables |
 //! | `probes.csv` | values that the scene asks for, a row a step |
 //! | `fluid.pvd`, `structure.pvd`, `fields/` | fields for a viewer |
@@ -33,8 +33,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use partita_coupling::Record;
 use partita_coupling::record::{IterationRecord, StepRecord};
+use partita_coupling::{Record, RetryRecord};
 
 use crate::checkpoint::{self, Stamp};
 use crate::scene::{INPUT_FOLDER, Input};
@@ -190,6 +190,15 @@ impl RunWriter {
         })
     }
 
+    /// Writes that a step has failed and is repeated with half its size, after its iterations.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn retry(&mut self, record: &RetryRecord) -> Result<(), OutputError> {
+        self.totals.retries += 1;
+        self.timed(|run| run.records.append(&Line::Retry(record).to_json()))
+    }
+
     /// Writes the probed values at the end of a step (0: at the start).
     ///
     /// # Errors
@@ -291,6 +300,7 @@ fn resume_records(path: PathBuf, step: usize) -> Result<(LineFile, Totals, usize
         match serde_json::from_str(line).map_err(|error| error.to_string())? {
             Record::Iteration(record) if record.step <= step => iterations += 1,
             Record::Step(record) if record.step <= step => totals.add(&record),
+            Record::Retry(record) if record.step <= step => totals.retries += 1,
             _ => return Ok(false),
         }
         Ok(true)

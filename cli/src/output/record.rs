@@ -3,6 +3,7 @@
 //! Times stand in the object `seconds` of a line and in columns whose names end in `_seconds`; nothing else depends on
 //! the machine.
 
+use partita_coupling::RetryRecord;
 use partita_coupling::participant::{NewtonLimit, PhaseTimes, WorkDetails};
 use partita_coupling::record::{
     FieldRecord, FieldSeconds, FieldTotals, IterationRecord, Seconds, StepRecord,
@@ -23,6 +24,8 @@ pub(super) enum Line<'a> {
     Iteration(&'a IterationRecord),
     /// A finished step.
     Step(&'a StepRecord),
+    /// A step that failed and is repeated with half its size.
+    Retry(&'a RetryRecord),
 }
 
 impl Line<'_> {

@@ -29,6 +29,8 @@ pub struct Totals {
     pub steps: usize,
     /// Those among them whose criterion was not met.
     pub unconverged_steps: usize,
+    /// Steps that failed and were repeated with half their size.
+    pub retries: usize,
     /// Coupling iterations.
     pub coupling_iterations: usize,
     /// Newton iterations of the fluid.
@@ -210,6 +212,9 @@ pub struct Summary {
     pub steps: usize,
     /// Those among them that ended on the iteration bound and were accepted.
     pub unconverged_steps: usize,
+    /// Steps that failed and were repeated with half their size, where there were any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub retries: Option<usize>,
     /// Coupling iterations of these steps.
     pub coupling_iterations: usize,
     /// Newton iterations of the fluid.
@@ -240,6 +245,7 @@ impl Summary {
             cause: None,
             steps: totals.steps,
             unconverged_steps: totals.unconverged_steps,
+            retries: (totals.retries > 0).then_some(totals.retries),
             coupling_iterations: totals.coupling_iterations,
             newton_fluid: totals.newton_fluid,
             newton_structure: totals.newton_structure,

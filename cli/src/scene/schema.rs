@@ -15,6 +15,7 @@ mod numbers;
 mod output;
 mod structure;
 
+use partita_coupling::StepSizes;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -35,8 +36,8 @@ pub use limit::Limit;
 pub use newton::{Check, Newton, Tolerance};
 pub(crate) use numbers::plain;
 pub use numbers::{
-    Count, Fraction, NonNegative, NotACount, OutOfRange, Parameter, PoissonRatio, Positive, Real, Relaxation,
-    SpectralRadius,
+    Count, Fraction, Halvings, NonNegative, NotACount, OutOfRange, Parameter, PoissonRatio, Positive, Real,
+    Relaxation, SpectralRadius,
 };
 pub use output::{Line, Output, Probe};
 pub use structure::{Elastic, Material, Part, Plane, RayleighDamping, Structure, StructureTimeScheme};
@@ -71,6 +72,32 @@ pub struct Time {
     pub step: Positive,
     /// Number of time steps.
     pub steps: Count,
+    /// Repeats a step that fails with half its size; leave it out to stop there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub retry: Option<Retry>,
+}
+
+/// `[time.retry]`: a step that fails is given up and repeated in halves; the run returns to the scene's step size by
+/// doubling, and meets every time of the scene's grid.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Retry {
+    /// How often a step may be halved. Default: 3.
+    pub halvings: Halvings,
+}
+
+impl Default for Retry {
+    fn default() -> Self {
+        Self { halvings: Halvings::new(3).expect("3 is in range") }
+    }
+}
+
+impl Time {
+    /// The sizes that the steps may have.
+    #[must_use]
+    pub fn sizes(&self) -> StepSizes {
+        StepSizes::new(self.step.get(), self.retry.map_or(0, |retry| retry.halvings.get()))
+    }
 }
 
 /// Where a scene makes one of several choices; `*` stands for any name.

@@ -85,11 +85,15 @@ impl State {
 }
 
 fn run(steps: u32, overrides: &[&str]) -> State {
-    let dt = END / f64::from(steps);
+    run_in(&vec![END / f64::from(steps); steps as usize], overrides)
+}
+
+/// A run in steps of these sizes \[s\].
+fn run_in(sizes: &[f64], overrides: &[&str]) -> State {
     let overrides: Vec<String> = overrides.iter().map(|&given| given.to_owned()).collect();
     let tank = scene::read_in("".as_ref(), "tank", TANK, &overrides).expect("a sound scene");
     let mut run = build::run(&tank).expect("the scene builds");
-    for _ in 0..steps {
+    for &dt in sizes {
         run.step(dt, &mut ()).expect("the step converges");
     }
     let fluid = run.first().field().expect("a fluid").values().chunks_exact(3);
@@ -142,4 +146,27 @@ fn backward_euler_beside_generalized_alpha_couples_to_first_order() {
 #[test]
 fn second_order_schemes_couple_to_second_order() {
     check("bdf2", 2.0, [7.8e-5, 1.14e-4, 5.4e-5, 1.6e-4]);
+}
+
+/// Two steps in the middle, made as after a step that failed and whose second half failed again, change the end by no
+/// more than the scheme's own error does: by the second power of the step. Coefficients of equal steps would leave the
+/// first.
+#[test]
+fn retried_steps_keep_second_order() {
+    let steps = [20_u32, 40, 80];
+    let dt = steps.map(|n| END / f64::from(n));
+    let scheme = ["fluid.time_scheme=bdf2"];
+    let pairs = steps.map(|n| {
+        let mut sizes = vec![END / f64::from(n); n as usize];
+        let middle = n as usize / 2;
+        let parts = [0.5, 0.25, 0.25, 0.5, 0.5].map(|part| part * sizes[0]);
+        sizes.splice(middle..middle + 2, parts);
+        (run_in(&sizes, &scheme), run(n, &scheme))
+    });
+    for name in ["displacement", "velocity", "pressure", "force"] {
+        let changes = pairs.each_ref().map(|(a, b)| distance(a.quantity(name), b.quantity(name)));
+        let order = fitted_order(&dt, &changes);
+        println!("{name}: order {order:.2}, changes {changes:?}");
+        assert!(order > 1.9, "{name}: order {order:.2}");
+    }
 }

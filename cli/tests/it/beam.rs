@@ -31,7 +31,7 @@ fn first_steps_of_the_beam_cost_what_they_did() {
         }
         let iterations = records.iter().filter_map(|record| match record {
             Record::Iteration(iteration) => Some(iteration.fields.each_ref().map(|field| field.newton)),
-            Record::Step(_) => None,
+            Record::Step(_) | Record::Retry(_) => None,
         });
         let [coupling, fluid, structure] = iterations
             .fold([0; 3], |sum, [fluid, structure]| [sum[0] + 1, sum[1] + fluid, sum[2] + structure]);

@@ -9,6 +9,7 @@ mod linear_tank;
 mod output;
 mod program;
 mod relaxation;
+mod retry;
 mod scene;
 mod solid;
 mod static_tank;

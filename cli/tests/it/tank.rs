@@ -34,7 +34,7 @@ fn records(run: &mut Run, tank: &Resolved, steps: usize) -> Vec<Record> {
 fn iterations(records: &[Record]) -> impl Iterator<Item = &IterationRecord> {
     records.iter().filter_map(|record| match record {
         Record::Iteration(iteration) => Some(iteration),
-        Record::Step(_) => None,
+        Record::Step(_) | Record::Retry(_) => None,
     })
 }
 

@@ -111,7 +111,7 @@ fn virtual_work_survives_every_transfer() {
         .iter()
         .filter_map(|record| match record {
             Record::Iteration(iteration) => Some(iteration.work_defect),
-            Record::Step(_) => None,
+            Record::Step(_) | Record::Retry(_) => None,
         })
         .collect();
     assert!(defects.len() > 12, "{} iterations", defects.len());

@@ -4,7 +4,7 @@ use partita_coupling::models::tank::Tank;
 use partita_coupling::models::tube::Tube;
 use partita_coupling::{
     Acceleration, AtLimit, CouplingSettings, Criterion, Effort, IdentityTransfer, March, MatrixTransfer,
-    NewtonLimit, ParticipantError, Policy, Record, SetupError, StepFailure,
+    NewtonLimit, ParticipantError, Policy, Record, SetupError, StepFailure, StepSizes,
 };
 
 use crate::support::{Spoiled, all_accelerations, fixed, imvls, march, settings, tank, tube};
@@ -137,6 +137,7 @@ fn strip(records: &[Record]) -> Vec<Record> {
     let strip = |record: &Record| match record {
         Record::Iteration(record) => Record::Iteration(record.without_seconds()),
         Record::Step(record) => Record::Step(record.without_seconds()),
+        Record::Retry(record) => Record::Retry(record.clone()),
     };
     records.iter().map(strip).collect()
 }
@@ -431,4 +432,60 @@ fn a_residual_that_no_longer_falls_asks_for_another_method_not_for_more_iteratio
         let error = march(flow, Spoiled::new(wall, stuck), &bound).step(DT, &mut ()).unwrap_err();
         assert!(error.to_string().contains(hint), "{error}");
     }
+}
+
+#[test]
+fn failed_step_is_halved_until_it_can_be_made_and_the_size_comes_back() {
+    let (flow, wall) = Tube::default().participants().unwrap();
+    let mut struck = 0;
+    let wall = Spoiled::new(wall, move |call, _, _| {
+        if call == 4 || call == 5 {
+            struck += 1;
+            return Err(ParticipantError::new("wall", format!("too much, {struck}")));
+        }
+        Ok(())
+    });
+    let mut run = march(flow, wall, &settings(imvls()));
+    let sizes = StepSizes::new(DT, 2);
+    let mut records: Vec<Record> = Vec::new();
+    while sizes.done(&run.clock()) < 3 {
+        run.step_or_halve(&sizes, &mut records).unwrap();
+    }
+    let made: Vec<f64> = records
+        .iter()
+        .filter_map(|r| if let Record::Step(step) = r { Some(step.dt / DT) } else { None })
+        .collect();
+    assert_eq!(made, [0.25, 0.25, 0.5, 1.0, 1.0]);
+    let retries: Vec<_> = records
+        .iter()
+        .filter_map(|r| if let Record::Retry(retry) = r { Some(retry) } else { None })
+        .collect();
+    assert_eq!(retries.iter().map(|retry| retry.next_dt / retry.dt).collect::<Vec<_>>(), [0.5, 0.5]);
+    assert_eq!(retries[1].cause, "wall: too much, 2");
+    assert_eq!((retries[0].step, retries[1].step), (1, 1));
+    assert!((run.clock().time - 3.0 * DT).abs() < 1e-12 * DT);
+}
+
+#[test]
+fn the_smallest_step_that_fails_ends_the_run_where_it_began() {
+    let (flow, wall) = Tube::default().participants().unwrap();
+    let wall =
+        Spoiled::new(
+            wall,
+            |call, _, _| {
+                if call > 20 { Err(ParticipantError::new("wall", "gone")) } else { Ok(()) }
+            },
+        );
+    let mut run = march(flow, wall, &settings(imvls()));
+    let sizes = StepSizes::new(DT, 3);
+    let mut records: Vec<Record> = Vec::new();
+    let error = loop {
+        let before = run.state();
+        if let Err(error) = run.step_or_halve(&sizes, &mut records) {
+            assert_eq!(run.state(), before);
+            break error;
+        }
+    };
+    assert_eq!(error.step.dt.to_bits(), (DT / 8.0).to_bits());
+    assert_eq!(records.iter().filter(|record| matches!(record, Record::Retry(_))).count(), 3);
 }

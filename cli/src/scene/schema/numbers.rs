@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use partita_coupling::StepSizes;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -104,6 +105,44 @@ ranged!(
     /// The spectral radius at infinite frequency: 0 to 1.
     SpectralRadius, "a spectral radius, from 0 to 1", |x| (0.0..=1.0).contains(&x)
 );
+
+/// How often a step may be halved: 1 to [`StepSizes::MOST`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "i64", into = "u32")]
+pub struct Halvings(u32);
+
+impl Halvings {
+    /// Checks the range.
+    ///
+    /// # Errors
+    ///
+    /// A sentence for a number outside it.
+    pub fn new(value: i64) -> Result<Self, String> {
+        match u32::try_from(value) {
+            Ok(halvings @ 1..=StepSizes::MOST) => Ok(Self(halvings)),
+            _ => Err(format!("{value} is not a number of halvings, from 1 to {}", StepSizes::MOST)),
+        }
+    }
+
+    /// The plain number.
+    #[must_use]
+    pub const fn get(self) -> u32 {
+        self.0
+    }
+}
+
+impl TryFrom<i64> for Halvings {
+    type Error = String;
+    fn try_from(value: i64) -> Result<Self, String> {
+        Self::new(value)
+    }
+}
+
+impl From<Halvings> for u32 {
+    fn from(halvings: Halvings) -> Self {
+        halvings.0
+    }
+}
 
 /// A count of at least one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]

@@ -25,6 +25,8 @@ pub(crate) enum Command {
     Check(Check),
     /// Take up a run at its last checkpoint.
     Resume(Resume),
+    /// Run a scene at many settings and show what accuracy costs.
+    Study(Study),
 }
 
 #[derive(Debug, Args)]
@@ -57,6 +59,25 @@ pub(crate) struct Resume {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct Study {
+    /// Study file: a scene, choices and refinements, and what they are measured against.
+    #[arg(value_name = "STUDY")]
+    pub(crate) file: PathBuf,
+    /// Folder for the output [default: runs/<name of the study>].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace the study in the output folder.
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Name the cheapest setting with at most this error, instead of the study's own.
+    #[arg(long, value_name = "ERROR", value_parser = positive)]
+    pub(crate) wanted: Option<f64>,
+    /// Show no progress and print nothing.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct SceneArguments {
     /// Scene file, or a folder with a scene.toml in it.
     #[arg(value_name = "SCENE")]
@@ -78,4 +99,13 @@ pub(crate) struct Manner {
     /// Print the summary as JSON.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "this is not a number".to_owned())?;
+    if number > 0.0 && number.is_finite() {
+        Ok(number)
+    } else {
+        Err("this is not a number above zero".to_owned())
+    }
 }

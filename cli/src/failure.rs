@@ -10,6 +10,7 @@ use partita::checkpoint::CheckpointError;
 use partita::output::{self, OutputError};
 use partita::scene::SceneError;
 use partita::session::RunError;
+use partita::study::{StudyError, StudyFailure};
 use partita_mesh::vtu::VtuError;
 
 /// The scene or the command line is wrong.
@@ -95,6 +96,22 @@ impl From<OutputError> for Failure {
             }
             _ => Self { code: FAILED_RUN, report: Complaint::from_display(&error).into() },
         }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        Self { code: WRONG_INPUT, report: error.into() }
+    }
+}
+
+impl From<StudyFailure> for Failure {
+    fn from(error: StudyFailure) -> Self {
+        let code = match &error {
+            StudyFailure::Occupied { .. } | StudyFailure::Write { .. } => WRONG_INPUT,
+            StudyFailure::Reference { .. } => FAILED_RUN,
+        };
+        Self { code, report: Complaint::from_display(&error).into() }
     }
 }
 

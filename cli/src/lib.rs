@@ -13,3 +13,4 @@ mod probe;
 pub mod progress;
 pub mod scene;
 pub mod session;
+pub mod study;

@@ -12,9 +12,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Parser;
 use partita::output::{Clock, Ending, Summary};
 use partita::session::{Options, RunError, Session};
+use partita::study;
 use partita::{build, check, output, scene};
 
-use args::{Arguments, Check, Command, Manner, Resume, Run};
+use args::{Arguments, Check, Command, Manner, Resume, Run, Study};
 use failure::Failure;
 
 /// Set when the user asks to stop; the run ends after its step.
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run(&arguments, clock),
         Command::Check(arguments) => check(&arguments),
         Command::Resume(arguments) => resume(&arguments, clock),
+        Command::Study(arguments) => study(&arguments),
     };
     outcome.unwrap_or_else(|failure| failure.show())
 }
@@ -60,14 +62,36 @@ fn resume(arguments: &Resume, clock: Clock) -> Result<ExitCode, Failure> {
     finish(session, &arguments.dir, &arguments.manner)
 }
 
-fn options(manner: &Manner) -> Options<'static> {
-    // The first interrupt waits for the end of the step, the second does not. Where no handler can be set, the
-    // system's own stays: it stops at once, and the run can be resumed from its last checkpoint.
+fn study(arguments: &Study) -> Result<ExitCode, Failure> {
+    let study = study::Study::load(&arguments.file)?.with_wanted(arguments.wanted);
+    let dir = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(study.name()));
+    stop_when_interrupted();
+    let mut tell = |line: &str| {
+        if !arguments.quiet {
+            eprintln!("{line}");
+        }
+    };
+    let manner = study::Manner { force: arguments.force, stop: &STOP, tell: &mut tell };
+    let report = study.conduct(&dir, manner)?;
+    if !arguments.quiet {
+        eprintln!("output in {}", dir.display());
+        print(&format!("{}\n{}", report.table().to_plain(), report.answer()))?;
+    }
+    Ok(if report.interrupted { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
+}
+
+/// The first interrupt waits for the end of the step, the second does not. Where no handler can be set, the system's own
+/// stays: it stops at once, and a run can be resumed from its last checkpoint.
+fn stop_when_interrupted() {
     let _ = ctrlc::set_handler(|| {
         if STOP.swap(true, Ordering::Relaxed) {
             std::process::exit(INTERRUPTED.into());
         }
     });
+}
+
+fn options(manner: &Manner) -> Options<'static> {
+    stop_when_interrupted();
     Options { steps: manner.steps.map(Into::into), quiet: manner.quiet, stop: Some(&STOP) }
 }
 

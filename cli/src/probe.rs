@@ -46,12 +46,8 @@ impl Probes {
     /// The probes of `scene` on `run`, which was built from it.
     #[must_use]
     pub(crate) fn new(probes: &BTreeMap<String, schema::Probe>, run: &Run) -> Self {
-        let mut columns = Vec::new();
-        let places = probes.iter().map(|(name, probe)| {
-            columns.extend(quantities(probe).iter().map(|quantity| format!("{name}_{quantity}")));
-            place(probe, run)
-        });
-        Self { places: places.collect(), columns }
+        let places = probes.values().map(|probe| place(probe, run)).collect();
+        Self { places, columns: columns(probes) }
     }
 
     /// Names of the columns.
@@ -70,6 +66,13 @@ impl Probes {
         };
         self.places.iter().flat_map(values).collect()
     }
+}
+
+/// Names of the columns of `probes`.
+#[must_use]
+pub(crate) fn columns(probes: &BTreeMap<String, schema::Probe>) -> Vec<String> {
+    let of_probe = |(name, probe)| quantities(probe).iter().map(move |quantity| format!("{name}_{quantity}"));
+    probes.iter().flat_map(of_probe).collect()
 }
 
 /// What the columns of a probe are called.

@@ -185,7 +185,22 @@ mod tests {
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
         // Two legends, seven points with both numbers, the ring, the hollow one of the legend.
         assert_eq!(svg.matches("<circle").count(), 2 + 6 + 1 + 1);
+        well_formed(&svg);
         assert_eq!(diagram.draw(), Some(svg));
+    }
+
+    /// Every element that is opened is closed, and every attribute can be read.
+    fn well_formed(svg: &str) {
+        let mut reader = quick_xml::Reader::from_str(svg);
+        loop {
+            match reader.read_event().expect("well-formed XML") {
+                quick_xml::events::Event::Eof => break,
+                quick_xml::events::Event::Start(tag) | quick_xml::events::Event::Empty(tag) => {
+                    assert!(tag.attributes().all(|attribute| attribute.is_ok()), "{tag:?}");
+                }
+                _ => {}
+            }
+        }
     }
 
     #[test]

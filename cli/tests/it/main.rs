@@ -13,5 +13,6 @@ mod retry;
 mod scene;
 mod solid;
 mod static_tank;
+mod study;
 mod tank;
 mod work;

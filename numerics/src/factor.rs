@@ -129,10 +129,7 @@ impl Factor {
         self.trial.inspect(&self.pattern, values)?;
         match &self.backend {
             Backend::NodeBlockLu(_) => self.refactor_or_fall_back(values)?,
-            Backend::Empty | Backend::Lu(_) | Backend::Cholesky(_) => {
-                self.backend.refactor(values)?;
-                self.try_out(values);
-            }
+            Backend::Empty | Backend::Lu(_) | Backend::Cholesky(_) => self.refactor_and_try_out(values)?,
         }
         trial::judge(self.trial_error)?;
         self.is_ready = true;
@@ -141,22 +138,24 @@ impl Factor {
 
     /// Keeps the fast factor only if it is as good as round-off allows.
     fn refactor_or_fall_back(&mut self, values: &[f64]) -> Result<(), FactorError> {
-        if self.backend.refactor(values).is_ok() {
-            self.try_out(values);
-            if self.trial_error < trial::SOUND || self.is_stable(values) {
-                return Ok(());
-            }
+        let fast = self.refactor_and_try_out(values);
+        if fast.is_ok() && (self.trial_error < trial::SOUND || self.is_stable(values)) {
+            return Ok(());
         }
-        if let Backend::NodeBlockLu(lu) = &mut self.backend {
+        let Backend::NodeBlockLu(lu) = &mut self.backend else { return fast };
+        self.trial_error = self.trial.error(&self.pattern, values, |rhs| {
             lu.fall_back(&self.pattern, values)?;
-        }
-        self.try_out(values);
+            lu.solve(rhs);
+            Ok(())
+        })?;
         Ok(())
     }
 
-    fn try_out(&mut self, values: &[f64]) {
+    fn refactor_and_try_out(&mut self, values: &[f64]) -> Result<(), FactorError> {
         let backend = &mut self.backend;
-        self.trial_error = self.trial.error(&self.pattern, values, |rhs| backend.solve(rhs));
+        let factor_and_solve = |rhs: &mut [f64]| backend.refactor_and_solve(values, rhs);
+        self.trial_error = self.trial.error(&self.pattern, values, factor_and_solve)?;
+        Ok(())
     }
 
     fn is_stable(&mut self, values: &[f64]) -> bool {
@@ -194,13 +193,16 @@ impl Factor {
 }
 
 impl Backend {
-    fn refactor(&mut self, values: &[f64]) -> Result<(), FactorError> {
+    fn refactor_and_solve(&mut self, values: &[f64], rhs: &mut [f64]) -> Result<(), FactorError> {
         match self {
-            Self::Empty => Ok(()),
-            Self::Lu(lu) => lu.refactor(values),
-            Self::NodeBlockLu(lu) => lu.refactor(values),
-            Self::Cholesky(cholesky) => cholesky.refactor(values),
+            Self::Empty => {}
+            Self::Lu(lu) => lu.refactor(values)?,
+            // In one go: it solves with each part of the factor while that is in the cache.
+            Self::NodeBlockLu(lu) => return lu.refactor_and_solve(values, rhs),
+            Self::Cholesky(cholesky) => cholesky.refactor(values)?,
         }
+        self.solve(rhs);
+        Ok(())
     }
 
     fn solve(&mut self, rhs: &mut [f64]) {

@@ -27,13 +27,15 @@ mod solve;
 mod symbolic;
 mod tree;
 
+use std::slice;
+
 use super::FactorError;
 use crate::Pattern;
 use blocks::Blocks;
+use kernels::NoPivot;
 use numeric::Numeric;
 use solve::SolveSpace;
 use symbolic::Symbolic;
-use tree::Tree;
 
 /// Symbolic and numeric factor with the work space of both phases.
 pub(super) struct Multifrontal {
@@ -48,21 +50,35 @@ impl Multifrontal {
         // Indices of the hot loops have 32 bits.
         u32::try_from(pattern.nonzeros()).map_err(|_| out_of_memory())?;
         let blocks = Blocks::new(pattern);
-        let order = ordering::order(&blocks, pattern.size()).ok_or_else(out_of_memory)?;
-        let symbolic = Symbolic::new(pattern, &blocks, &Tree::new(&blocks, &order));
+        let tree = ordering::tree(&blocks, pattern.size()).ok_or_else(out_of_memory)?;
+        let symbolic = Symbolic::new(pattern, &blocks, &tree);
         let numeric = Numeric::new(&symbolic).ok_or_else(out_of_memory)?;
         let space = SolveSpace::new(&symbolic).ok_or_else(out_of_memory)?;
         Ok(Self { symbolic, numeric, space })
     }
 
-    /// Factors the matrix with these values, or names an equation whose block has no pivot left.
-    pub(super) fn refactor(&mut self, values: &[f64]) -> Result<(), FactorError> {
-        self.numeric.refactor(&self.symbolic, values).map_err(|pivot| FactorError::Singular {
-            equation: Some(self.symbolic.equations[pivot] as usize),
-        })
+    /// Factors the matrix with these values and replaces `rhs` by the solution, or names an equation whose block has no
+    /// pivot left.
+    pub(super) fn refactor_and_solve(&mut self, values: &[f64], rhs: &mut [f64]) -> Result<(), FactorError> {
+        let Self { symbolic, numeric, space } = self;
+        space.load(symbolic, rhs);
+        for front in &symbolic.fronts {
+            numeric.eliminate(symbolic, front, values).map_err(|NoPivot(column)| FactorError::Singular {
+                equation: Some(symbolic.equations[front.first + column] as usize),
+            })?;
+            // The sweep down the tree reads L while it is in the cache.
+            space.forward(symbolic, numeric, slice::from_ref(front));
+        }
+        space.backward(symbolic, numeric);
+        space.store(symbolic, rhs);
+        Ok(())
     }
 
     pub(super) fn solve(&mut self, rhs: &mut [f64]) {
-        self.space.solve(&self.symbolic, &self.numeric, rhs);
+        let Self { symbolic, numeric, space } = self;
+        space.load(symbolic, rhs);
+        space.forward(symbolic, numeric, &symbolic.fronts);
+        space.backward(symbolic, numeric);
+        space.store(symbolic, rhs);
     }
 }

@@ -20,9 +20,9 @@ impl NodeBlockLu {
     }
 
     /// Tries the fast way, whatever happened before: the outcome must not depend on earlier matrices.
-    pub(super) fn refactor(&mut self, values: &[f64]) -> Result<(), FactorError> {
+    pub(super) fn refactor_and_solve(&mut self, values: &[f64], rhs: &mut [f64]) -> Result<(), FactorError> {
         self.fell_back = false;
-        self.fast.refactor(values)
+        self.fast.refactor_and_solve(values, rhs)
     }
 
     /// Factors the same matrix the safe way.

@@ -74,17 +74,22 @@ impl Trial {
         Ok(())
     }
 
-    /// Solves with the fresh factor; the error of the solution, in columns scaled to one.
-    pub(super) fn error(&mut self, pattern: &Pattern, values: &[f64], solve: impl FnOnce(&mut [f64])) -> f64 {
+    /// The error with which `solve` returns the known solution, in columns scaled to one. It may factor the matrix, too.
+    pub(super) fn error(
+        &mut self,
+        pattern: &Pattern,
+        values: &[f64],
+        solve: impl FnOnce(&mut [f64]) -> Result<(), FactorError>,
+    ) -> Result<f64, FactorError> {
         for (j, (known, scale)) in self.known.iter_mut().zip(&self.column_scales).enumerate() {
             *known = varied(j) / scale;
         }
         pattern.multiply(values, &self.known, &mut self.solution);
-        solve(&mut self.solution);
+        solve(&mut self.solution)?;
         let solutions = self.known.iter().zip(&self.solution);
         let errors =
             solutions.zip(&self.column_scales).map(|((x, solved), scale)| scale * (x - solved).abs());
-        largest(errors)
+        Ok(largest(errors))
     }
 
     /// Whether the backward errors of the system that [`error`](Self::error) solved are those of a good factor.

@@ -30,15 +30,13 @@ impl Numeric {
         })
     }
 
-    /// Factors the matrix with these values; the error is a pivot that its front does not have.
-    pub(super) fn refactor(&mut self, symbolic: &Symbolic, values: &[f64]) -> Result<(), usize> {
-        for front in &symbolic.fronts {
-            self.eliminate(symbolic, front, values).map_err(|NoPivot(column)| front.first + column)?;
-        }
-        Ok(())
-    }
-
-    fn eliminate(&mut self, symbolic: &Symbolic, front: &Front, values: &[f64]) -> Result<(), NoPivot> {
+    /// Assembles and eliminates a front whose children are done.
+    pub(super) fn eliminate(
+        &mut self,
+        symbolic: &Symbolic,
+        front: &Front,
+        values: &[f64],
+    ) -> Result<(), NoPivot> {
         let layout = front.layout;
         let factor = &mut self.factors[front.factor..front.factor + layout.factor_len()];
         let [even, odd] = &mut self.stacks;

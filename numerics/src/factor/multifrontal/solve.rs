@@ -28,40 +28,64 @@ impl SolveSpace {
         })
     }
 
-    /// Replaces `rhs` by the solution.
-    pub(super) fn solve(&mut self, symbolic: &Symbolic, numeric: &Numeric, rhs: &mut [f64]) {
+    /// Takes in a right-hand side.
+    pub(super) fn load(&mut self, symbolic: &Symbolic, rhs: &[f64]) {
         for (value, &equation) in self.permuted.iter_mut().zip(&symbolic.equations) {
             *value = rhs[equation as usize];
         }
-        numeric.arch.dispatch(Sweeps { space: self, symbolic, numeric });
+    }
+
+    /// Hands out the solution.
+    pub(super) fn store(&self, symbolic: &Symbolic, solution: &mut [f64]) {
         for (value, &equation) in self.permuted.iter().zip(&symbolic.equations) {
-            rhs[equation as usize] = *value;
+            solution[equation as usize] = *value;
         }
+    }
+
+    /// The way down, through these fronts; those before them have to be done.
+    pub(super) fn forward(&mut self, symbolic: &Symbolic, numeric: &Numeric, fronts: &[Front]) {
+        numeric.arch.dispatch(Forward(Sweep { space: self, symbolic, numeric }, fronts));
+    }
+
+    /// The way up, through all fronts.
+    pub(super) fn backward(&mut self, symbolic: &Symbolic, numeric: &Numeric) {
+        numeric.arch.dispatch(Backward(Sweep { space: self, symbolic, numeric }));
     }
 }
 
-struct Sweeps<'a> {
+struct Sweep<'a> {
     space: &'a mut SolveSpace,
     symbolic: &'a Symbolic,
     numeric: &'a Numeric,
 }
 
-impl WithSimd for Sweeps<'_> {
+struct Forward<'a>(Sweep<'a>, &'a [Front]);
+
+impl WithSimd for Forward<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
-        let symbolic = self.symbolic;
-        for front in &symbolic.fronts {
-            self.forward(simd, front);
-        }
-        for front in symbolic.fronts.iter().rev() {
-            self.backward(simd, front);
+        for front in self.1 {
+            self.0.forward(simd, front);
         }
     }
 }
 
-impl Sweeps<'_> {
+struct Backward<'a>(Sweep<'a>);
+
+impl WithSimd for Backward<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        for front in self.0.symbolic.fronts.iter().rev() {
+            self.0.backward(simd, front);
+        }
+    }
+}
+
+impl Sweep<'_> {
     /// x := `L_D`^-1 x on the pivots, then x := x - L x on the rows below.
     #[inline(always)]
     fn forward<S: Simd>(&mut self, simd: S, front: &Front) {

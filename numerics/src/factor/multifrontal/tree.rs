@@ -8,13 +8,15 @@ pub(super) struct Tree {
     pub(super) members: Vec<Vec<usize>>,
     /// The supernode that takes up what is left of each one; nothing at the roots.
     pub(super) parent: Vec<Option<usize>>,
+    /// What the elimination costs, about.
+    pub(super) operations: f64,
 }
 
 impl Tree {
     pub(super) fn new(blocks: &Blocks, order: &[usize]) -> Self {
         let elimination = Elimination::new(blocks, order);
-        let absorbed_by = amalgamate(&elimination);
-        supernodes(&elimination, order, &absorbed_by)
+        let merged = amalgamate(&elimination);
+        supernodes(&elimination, order, &merged)
     }
 }
 
@@ -80,15 +82,21 @@ fn allowed_zeros(pivots: usize) -> f64 {
     }
 }
 
-/// Which block each block is merged into, its parent always; nothing for the last block of a supernode.
-///
+/// Which blocks make a supernode.
+struct Merged {
+    /// The block that each one is merged into, its parent always; nothing for the last block of a supernode.
+    into: Vec<Option<usize>>,
+    /// Equations of each supernode, at its last block.
+    pivots: Vec<usize>,
+}
+
 /// A child with p pivots and q rows below merges into a parent with P pivots and Q rows below at the price of
 /// p (P + Q - q) zeros in L and as many in U. Where there is none, the supernode is a fundamental one.
-fn amalgamate(tree: &Elimination) -> Vec<Option<usize>> {
+fn amalgamate(tree: &Elimination) -> Merged {
     let n = tree.parent.len();
     let mut pivots = tree.pivots.clone();
     let mut zeros = vec![0_usize; n];
-    let mut absorbed_by = vec![None; n];
+    let mut into = vec![None; n];
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); n];
     for node in 0..n {
         let mut candidates = std::mem::take(&mut children[node]);
@@ -101,29 +109,29 @@ fn amalgamate(tree: &Elimination) -> Vec<Option<usize>> {
             if padding == 0 || (merged_zeros as f64) < allowed_zeros(merged) * entries as f64 {
                 pivots[node] = merged;
                 zeros[node] = merged_zeros;
-                absorbed_by[child] = Some(node);
+                into[child] = Some(node);
             }
         }
         if let Some(parent) = tree.parent[node] {
             children[parent].push(node);
         }
     }
-    absorbed_by
+    Merged { into, pivots }
 }
 
 /// Numbers the supernodes in postorder.
-fn supernodes(tree: &Elimination, order: &[usize], absorbed_by: &[Option<usize>]) -> Tree {
+fn supernodes(tree: &Elimination, order: &[usize], merged: &Merged) -> Tree {
     let n = order.len();
     // Parents come later, so that one pass from the end finds the last block of every supernode.
     let mut last: Vec<usize> = (0..n).collect();
     for node in (0..n).rev() {
-        if let Some(into) = absorbed_by[node] {
+        if let Some(into) = merged.into[node] {
             last[node] = last[into];
         }
     }
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); n];
     let mut roots = Vec::new();
-    for node in (0..n).filter(|&node| absorbed_by[node].is_none()) {
+    for node in (0..n).filter(|&node| merged.into[node].is_none()) {
         match tree.parent[node] {
             Some(parent) => children[last[parent]].push(node),
             None => roots.push(node),
@@ -139,7 +147,14 @@ fn supernodes(tree: &Elimination, order: &[usize], absorbed_by: &[Option<usize>]
         members[number[last[node]]].push(order[node]);
     }
     let parent = postorder.iter().map(|&node| tree.parent[node].map(|parent| number[last[parent]])).collect();
-    Tree { members, parent }
+    let costs = postorder.iter().map(|&node| operations(merged.pivots[node], tree.below[node]));
+    Tree { members, parent, operations: costs.sum() }
+}
+
+/// Multiplications and additions of the elimination of a dense front: 2/3 p^3 + 2 p^2 q + 2 p q^2.
+fn operations(pivots: usize, below: usize) -> f64 {
+    let (p, q) = (pivots as f64, below as f64);
+    2.0 * p * (p * p / 3.0 + p * q + q * q)
 }
 
 fn postorder(roots: &[usize], children: &[Vec<usize>]) -> Vec<usize> {

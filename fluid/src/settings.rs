@@ -50,6 +50,11 @@ pub struct FluidSettings {
     pub tangent: Tangent,
     /// `C_I` of `tau_M`, see [`INVERSE_CONSTANT`].
     pub inverse_constant: f64,
+    /// Factor of `tau_C`; 1 is the formula of [`Stabilization`](crate::stabilization::Stabilization), 0 leaves the term out.
+    ///
+    /// With small steps `4/dt^2` rules `tau_M`, and `tau_C = rho h^2 / (4 dt)` grows without bound: on linear elements, which have
+    /// few fields without divergence, it then damps the flow as a viscosity would.
+    pub grad_div: f64,
     /// When Newton's method stops.
     pub newton: newton::Settings,
     /// How the mesh follows a moving boundary; unused where none moves.
@@ -66,6 +71,7 @@ impl Default for FluidSettings {
             time: TimeScheme::Bdf(BdfOrder::One),
             tangent: Tangent::Full,
             inverse_constant: INVERSE_CONSTANT,
+            grad_div: 1.0,
             newton: newton::Settings::default(),
             motion: MotionSettings::default(),
             mesh_slide: Vec::new(),

@@ -217,6 +217,7 @@ fn initial_flow<const D: usize>(model: &FluidModel<D>, settings: &FluidSettings)
         density: model.density,
         viscosity: model.viscosity,
         inverse_constant: settings.inverse_constant,
+        grad_div: settings.grad_div,
         rate: 0.0,
         four_over_dt_squared: 0.0,
         tangent: settings.tangent,

@@ -16,11 +16,12 @@ pub const INVERSE_CONSTANT: f64 = 36.0;
 ///
 /// ```text
 /// tau_M = (4/dt^2 + c.G c + C_I nu^2 G:G)^(-1/2)     [s]
-/// tau_C = rho / (tau_M tr G)                         [Pa s]
+/// tau_C = grad_div rho / (tau_M tr G)                [Pa s]
 /// d tau_M / dc = -tau_M^3 G c,   d tau_C / dc = -(tau_C / tau_M) d tau_M / dc
 /// ```
 ///
-/// c is the convective velocity u - w at the centroid, G the [`metric`]; a steady flow has no 4/dt^2.
+/// c is the convective velocity u - w at the centroid, G the [`metric`]; a steady flow has no 4/dt^2. `grad_div` is a factor, 1 in
+/// the source.
 ///
 /// Source: Y. Bazilevs et al., *Variational multiscale residual-based turbulence modeling for large eddy
 /// simulation of incompressible flows*, CMAME 197 (2007), equations (63)-(64), with the metric of Pauli and
@@ -55,7 +56,7 @@ impl<const D: usize> Stabilization<D> {
         }
         let rate = flow.four_over_dt_squared + convection + flow.inverse_constant * nu * nu * squares;
         let momentum = 1.0 / rate.sqrt();
-        let continuity = flow.density / (momentum * trace);
+        let continuity = flow.grad_div * (flow.density / (momentum * trace));
         let momentum_slope = g_c.map(|x| -momentum.powi(3) * x);
         let continuity_slope = momentum_slope.map(|x| -continuity / momentum * x);
         Self { momentum, continuity, momentum_slope, continuity_slope }
@@ -93,6 +94,7 @@ mod tests {
         density: 3.0,
         viscosity: 0.6,
         inverse_constant: INVERSE_CONSTANT,
+        grad_div: 1.0,
         rate: 10.0,
         four_over_dt_squared: 400.0,
         tangent: Tangent::Full,
@@ -149,6 +151,16 @@ mod tests {
         let tau = Stabilization::new(&[0.0; 2], &g, &viscous);
         assert_relative_eq!(tau.momentum, expected, max_relative = 1e-14);
         assert_relative_eq!(tau.continuity, 3.0 / (expected * 200.0), max_relative = 1e-14);
+    }
+
+    #[test]
+    fn grad_div_is_a_factor_of_the_continuity_term_alone() {
+        let g = [[130.0, 40.0], [40.0, 90.0]];
+        let whole = Stabilization::new(&[0.7, -1.1], &g, &FLOW);
+        let part = Stabilization::new(&[0.7, -1.1], &g, &Flow { grad_div: 0.3, ..FLOW });
+        assert_relative_eq!(part.continuity, 0.3 * whole.continuity, max_relative = 1e-15);
+        assert_relative_eq!(part.continuity_slope[0], 0.3 * whole.continuity_slope[0], max_relative = 1e-15);
+        assert!((part.momentum, part.momentum_slope) == (whole.momentum, whole.momentum_slope));
     }
 
     #[test]

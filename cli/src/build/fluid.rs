@@ -67,6 +67,7 @@ fn settings(fluid: &schema::Fluid, mesh: &Mesh<2>) -> FluidSettings {
             schema::Tangent::Picard => Tangent::Picard,
         },
         inverse_constant: fluid.inverse_constant.get(),
+        grad_div: fluid.grad_div.get(),
         newton: newton(&fluid.newton),
         motion: motion(&fluid.mesh_motion),
         mesh_slide: fluid.mesh_motion.slide.clone(),

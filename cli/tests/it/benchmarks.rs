@@ -26,7 +26,8 @@ fn probes(name: &str, steps: usize, overrides: &[&str]) -> String {
     let table = fs::read_to_string(dir.join("probes.csv")).expect("probes");
     let (head, last) = (table.lines().next().expect("a head"), table.lines().last().expect("a row"));
     let mut text = String::new();
-    for (column, cell) in head.split(',').zip(last.split(',')) {
+    // In the first steps nothing moves yet, and the volume defect is round-off.
+    for (column, cell) in head.split(',').zip(last.split(',')).filter(|(column, _)| !column.ends_with("defect")) {
         let value: f64 = cell.parse().expect("a number");
         writeln!(text, "{column} {value:.5e}").expect("a String takes any text");
     }
@@ -95,5 +96,43 @@ fn turek_hron_fsi1() {
     outflow_flow_rate 8.13223e-2
     tip_displacement_x 2.42395e-5
     tip_displacement_y 4.99177e-4
+    ");
+}
+
+#[test]
+fn turek_hron_cfd3() {
+    assert_snapshot!(probes("turek-hron-cfd3", 3, &[]), @r"
+    step 3.00000e0
+    time 7.50000e-3
+    body_force_x 5.26794e-1
+    body_force_y -2.53329e-3
+    inflow_flow_rate -2.80945e-5
+    outflow_flow_rate 2.80945e-5
+    ");
+}
+
+#[test]
+fn turek_hron_fsi2() {
+    assert_snapshot!(probes("turek-hron-fsi2", 3, &[]), @r"
+    step 3.00000e0
+    time 1.50000e-2
+    body_force_x 5.47277e-1
+    body_force_y -9.51524e-4
+    interface_work 1.86656e-6
+    tip_displacement_x -3.92712e-7
+    tip_displacement_y -1.00941e-9
+    ");
+}
+
+#[test]
+fn turek_hron_fsi3() {
+    assert_snapshot!(probes("turek-hron-fsi3", 3, &[]), @r"
+    step 3.00000e0
+    time 6.00000e-3
+    body_force_x 4.32681e-1
+    body_force_y -9.96637e-4
+    interface_work 2.49841e-7
+    tip_displacement_x -1.32007e-7
+    tip_displacement_y -9.23040e-11
     ");
 }

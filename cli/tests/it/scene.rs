@@ -88,6 +88,7 @@ fn a_resolved_scene_holds_every_default() {
     time_scheme = "bdf1"
     tangent = "full"
     inverse_constant = 36.0
+    grad_div = 1.0
     initial = "rest"
 
     [fluid.mesh.rectangle]

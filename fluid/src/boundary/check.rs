@@ -34,6 +34,10 @@ fn properties<const D: usize>(model: &FluidModel<D>, settings: &FluidSettings) -
     if !positive(constant) {
         return refuse("inverse constant", constant, "(C_I)", "it is positive and finite; 36 is common");
     }
+    if !(settings.grad_div >= 0.0 && settings.grad_div.is_finite()) {
+        let range = "it is finite and not negative; 1 is the formula of the literature";
+        return refuse("grad-div factor", settings.grad_div, "", range);
+    }
     Ok(())
 }
 

@@ -15,6 +15,8 @@ pub struct Flow {
     pub viscosity: f64,
     /// `C_I` of `tau_M`.
     pub inverse_constant: f64,
+    /// Factor of `tau_C`.
+    pub grad_div: f64,
     /// `c_0` of the time derivative `D_t u = c_0 u + history` `[1/s]`; zero for a steady flow.
     pub rate: f64,
     /// `4/dt^2` of `tau_M` `[1/s^2]`; zero for a steady flow.

@@ -43,7 +43,9 @@ fn properties_out_of_range_are_refused() {
     let nan = FluidModel { viscosity: f64::NAN, ..water.clone() };
     assert!(matches!(refused(nan, settings(BDF1)), FluidError::Property { .. }));
     let constant = FluidSettings { inverse_constant: 0.0, ..settings(BDF1) };
-    assert!(matches!(refused(water, constant), FluidError::Property { .. }));
+    assert!(matches!(refused(water.clone(), constant), FluidError::Property { .. }));
+    let negative = FluidSettings { grad_div: -0.1, ..settings(BDF1) };
+    assert!(matches!(refused(water, negative), FluidError::Property { .. }));
 }
 
 #[test]

@@ -56,6 +56,7 @@ impl<const D: usize, const N: usize> Case<D, N> {
             density: 1.3,
             viscosity: 0.07,
             inverse_constant: 36.0,
+            grad_div: 0.7,
             rate: if steady { 0.0 } else { 15.0 },
             four_over_dt_squared: if steady { 0.0 } else { 400.0 },
             tangent,

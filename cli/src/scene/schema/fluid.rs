@@ -30,6 +30,9 @@ pub struct Fluid {
     /// Constant of the viscous part of the stabilization time. Default: 36.
     #[serde(default = "inverse_constant")]
     pub inverse_constant: Positive,
+    /// Factor of the stabilization of continuity (grad-div), which damps coarse meshes under small steps. Default: 1.
+    #[serde(default = "grad_div")]
+    pub grad_div: NonNegative,
     /// Holds the pressure of one node where no boundary does. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressure_pin: Option<PressurePin>,
@@ -50,6 +53,10 @@ pub struct Fluid {
 
 fn inverse_constant() -> Positive {
     Positive::new(36.0).expect("36 is positive")
+}
+
+fn grad_div() -> NonNegative {
+    NonNegative::new(1.0).expect("1 is not negative")
 }
 
 /// `fluid.time_scheme`.

@@ -31,7 +31,7 @@ fn a_strange_key_lists_the_keys() {
      11 │ body_force = [0.0, -9.81]
         ╰────
       help: keys of [fluid]: density, viscosity, body_force, time_scheme, tangent, inverse_constant,
-            pressure_pin, mesh, boundary, initial, newton, mesh_motion
+            grad_div, pressure_pin, mesh, boundary, initial, newton, mesh_motion
     "#);
 }
 

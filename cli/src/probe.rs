@@ -39,6 +39,7 @@ enum FluidPlace {
     FlowRate(Vec<String>),
     Energy,
     VolumeDefect,
+    MeshQuality,
     InterfaceWork,
 }
 
@@ -89,6 +90,7 @@ fn quantities(probe: &schema::Probe) -> &'static [&'static str] {
         Probe::FluidFlowRate(_) => &["flow_rate"],
         Probe::FluidEnergy => &["kinetic_energy"],
         Probe::VolumeDefect => &["volume_defect"],
+        Probe::MeshQuality => &["smallest_ratio", "worst_shape"],
         Probe::InterfaceWork => &["work"],
     }
 }
@@ -116,6 +118,7 @@ fn place(probe: &schema::Probe, run: &Run) -> Place {
         Probe::FluidFlowRate(groups) => FluidPlace::FlowRate(groups.names().to_vec()),
         Probe::FluidEnergy => FluidPlace::Energy,
         Probe::VolumeDefect => FluidPlace::VolumeDefect,
+        Probe::MeshQuality => FluidPlace::MeshQuality,
         Probe::InterfaceWork => FluidPlace::InterfaceWork,
     })
 }
@@ -141,6 +144,9 @@ impl FluidPlace {
             }
             Self::Energy => vec![fluid.kinetic_energy()],
             Self::VolumeDefect => vec![fluid.volume_defect()],
+            Self::MeshQuality => fluid
+                .mesh_quality()
+                .map_or_else(|| vec![1.0; 2], |quality| vec![quality.smallest_ratio, quality.smallest_quality]),
             Self::InterfaceWork => vec![fluid.interface_work()],
         }
     }

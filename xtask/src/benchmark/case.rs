@@ -24,12 +24,29 @@ pub(super) struct Case {
     pub(super) set: Vec<String>,
     /// Overrides of the scene on each level, the coarsest first.
     pub(super) levels: Vec<Vec<String>>,
+    /// Where a run may end before the scene does. Default: nowhere.
+    #[serde(default)]
+    pub(super) until: Option<Until>,
     /// What is compared.
     #[serde(rename = "quantity")]
     pub(super) quantities: Vec<Quantity>,
     /// Folder of its scene.
     #[serde(skip)]
     pub(super) scene: PathBuf,
+}
+
+/// A run ends where the last periods of a signal repeat each other.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Until {
+    /// Column of `probes.csv`.
+    pub(super) column: String,
+    /// So many periods must agree.
+    pub(super) periods: usize,
+    /// Amplitude and length of each differ by less than this from the last one's \[%\].
+    pub(super) percent: f64,
+    /// Steps between two looks.
+    pub(super) every: usize,
 }
 
 /// A number of the literature, and where ours is found.
@@ -112,7 +129,7 @@ mod tests {
     fn the_shipped_cases_are_sound() {
         let cases = all(workspace_root()).expect("they can be read");
         let mut names: Vec<&str> = cases.iter().map(|case| case.name.as_str()).collect();
-        for needed in ["cavity-re100", "cavity-re400", "cavity-re1000", "cfd1", "csm1", "csm3", "fsi1"] {
+        for needed in ["cavity-re100", "cavity-re400", "cavity-re1000", "cfd1", "csm1", "csm3", "fsi1", "cfd3", "fsi2", "fsi3"] {
             assert!(names.contains(&needed), "{needed} is missing in {names:?}");
         }
         names.sort_unstable();
@@ -121,6 +138,10 @@ mod tests {
         for case in &cases {
             assert!(case.levels.len() >= 3, "{} has fewer than three levels", case.name);
             assert!(!case.quantities.is_empty(), "{} compares nothing", case.name);
+            if let Some(until) = &case.until {
+                assert!(case.quantities.iter().any(|quantity| quantity.column == until.column), "{}", case.name);
+                assert!(until.periods > 1 && until.every > 0 && until.percent > 0.0, "{}", case.name);
+            }
             for quantity in &case.quantities {
                 assert!(quantity.reference != 0.0, "{}: a relative error of nothing", case.name);
                 assert!(!quantity.name.contains([',', '"', '|']), "{} stands in tables", quantity.name);

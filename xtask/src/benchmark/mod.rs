@@ -3,6 +3,7 @@
 //! A case is described by `benchmark.toml` beside its scene. What comes out is kept in `docs/data/benchmarks.csv`; the
 //! page and the pictures are made from that file alone.
 
+mod animate;
 mod case;
 mod options;
 mod page;
@@ -10,6 +11,7 @@ mod plot;
 mod row;
 mod run;
 mod signal;
+mod signals;
 
 use std::path::{Path, PathBuf};
 
@@ -20,6 +22,8 @@ use row::Row;
 use crate::task::{TaskError, cargo, run as run_command};
 
 const DATA: &str = "docs/data/benchmarks.csv";
+/// Samples of the last periods, a file a level.
+const SIGNALS: &str = "docs/data/signals";
 const PAGE: &str = "docs/benchmarks.md";
 const PICTURES: &str = "docs/benchmarks";
 
@@ -34,13 +38,20 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
     let mut differing = Vec::new();
     for (case, levels) in chosen {
         for level in levels {
-            let found = run::level(root, &binary, case, level, &folder)?;
+            let run::Found { rows: found, samples, dir } = run::level(root, &binary, case, level, &folder)?;
             print!("{}", table(&found));
+            if options.animate {
+                let copy = animate::period(&binary, case, &dir, samples.as_ref())?;
+                println!("one more period with fields: {}", copy.display());
+            }
             match options.mode {
                 Mode::Check => differing.extend(differences(&kept, &found)),
                 Mode::Write => {
                     kept.retain(|row| (&row.case, row.level) != (&case.name, level));
                     kept.extend(found);
+                    if let Some(samples) = samples {
+                        put(&samples_file(root, case, level), &signals::to_csv(&samples))?;
+                    }
                     // After each level: a task that is cut off keeps what it has.
                     write(root, &cases, &mut kept)?;
                 }
@@ -100,8 +111,31 @@ fn write(root: &Path, cases: &[Case], rows: &mut Vec<Row>) -> Result<(), TaskErr
         if let Some(picture) = plot::errors(&case.title, &of_case) {
             put(&root.join(PICTURES).join(format!("{}.svg", case.name)), &picture)?;
         }
+        if let Some(picture) = signals::picture(case, &kept_samples(root, case)?) {
+            put(&root.join(PICTURES).join(format!("{}-signals.svg", case.name)), &picture)?;
+        }
     }
     Ok(())
+}
+
+fn samples_file(root: &Path, case: &Case, level: usize) -> PathBuf {
+    root.join(SIGNALS).join(format!("{}-{level}.csv", case.name))
+}
+
+/// The last periods of each level that has been run; nothing for a case without periods.
+fn kept_samples(root: &Path, case: &Case) -> Result<Vec<(usize, signals::Samples)>, TaskError> {
+    let mut kept = Vec::new();
+    for level in 1..=case.levels.len() {
+        let path = samples_file(root, case, level);
+        if path.is_file() {
+            let text = std::fs::read_to_string(&path)
+                .map_err(|source| TaskError::File { path: path.clone(), source })?;
+            let samples = signals::from_csv(&text)
+                .map_err(|what| TaskError::Failed(format!("{}: {what}", path.display())))?;
+            kept.push((level, samples));
+        }
+    }
+    Ok(kept)
 }
 
 fn put(path: &Path, text: &str) -> Result<(), TaskError> {
@@ -141,6 +175,8 @@ mod tests {
             steps: 1,
             cpu_seconds: "0.01".into(),
             coupling_per_step: String::new(),
+            simulated_seconds: String::new(),
+            repeats_percent: String::new(),
         }
     }
 
@@ -165,13 +201,21 @@ mod tests {
         assert!(read(PAGE) == page::markdown(&cases, &rows), "{PAGE} is not of {DATA}; {hint}");
         for case in &cases {
             let of_case: Vec<&Row> = rows.iter().filter(|row| row.case == case.name).collect();
-            assert_eq!(of_case.len(), case.levels.len() * case.quantities.len(), "rows of {}", case.name);
-            let picture = plot::errors(&case.title, &of_case).expect("more than one level");
-            assert!(
-                read(&format!("{PICTURES}/{}.svg", case.name)) == picture,
-                "picture of {}; {hint}",
-                case.name
-            );
+            let levels = of_case.len() / case.quantities.len();
+            assert_eq!(of_case.len(), levels * case.quantities.len(), "rows of {}", case.name);
+            // Runs to a periodic state are long; the page names the levels that are missing.
+            assert!(levels == case.levels.len() || case.until.is_some(), "levels of {}", case.name);
+            let samples = kept_samples(root, case).expect("the shipped signals");
+            assert_eq!(samples.len(), if case.until.is_some() { levels } else { 0 }, "signals of {}", case.name);
+            for (file, picture) in [
+                (case.name.clone(), plot::errors(&case.title, &of_case)),
+                (format!("{}-signals", case.name), signals::picture(case, &samples)),
+            ] {
+                if let Some(picture) = picture {
+                    let file = format!("{PICTURES}/{file}.svg");
+                    assert!(read(&file) == picture, "{file} is not of the data; {hint}");
+                }
+            }
         }
     }
 }

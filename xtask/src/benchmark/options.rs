@@ -1,4 +1,4 @@
-//! `cargo xtask benchmark [CASE...] [--level L] [--mode write|check]`.
+//! `cargo xtask benchmark [CASE...] [--level L] [--mode write|check] [--animate]`.
 
 use super::case::Case;
 
@@ -10,6 +10,8 @@ pub(super) struct Options {
     /// Only this level, from 1.
     pub(super) level: Option<usize>,
     pub(super) mode: Mode,
+    /// Go on for a period more, with fields to look at.
+    pub(super) animate: bool,
 }
 
 /// What becomes of the results.
@@ -46,6 +48,7 @@ impl Options {
                         other => return Err(format!("--mode is `check` or `write`, not `{other}`")),
                     };
                 }
+                "--animate" => options.animate = true,
                 option if option.starts_with('-') => return Err(format!("no such option: {option}")),
                 case => options.cases.push(case.to_owned()),
             }
@@ -83,8 +86,9 @@ mod tests {
         assert_eq!(read(&[]), Ok(Options::default()));
         assert_eq!(
             read(&["csm1", "--level", "2", "fsi1", "--mode", "write"]),
-            Ok(Options { cases: vec!["csm1".into(), "fsi1".into()], level: Some(2), mode: Mode::Write })
+            Ok(Options { cases: vec!["csm1".into(), "fsi1".into()], level: Some(2), mode: Mode::Write, animate: false })
         );
+        assert!(read(&["fsi2", "--animate"]).expect("sound words").animate);
         for wrong in [&["--level", "0"][..], &["--level"], &["--mode", "see"], &["--all"]] {
             assert!(read(wrong).is_err(), "{wrong:?}");
         }

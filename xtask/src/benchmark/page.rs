@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::case::Case;
-use super::row::Row;
+use super::row::{Row, number};
 
 const HEAD: &str = "\
 # Benchmarks
@@ -83,12 +83,38 @@ fn section(text: &mut String, case: &Case, rows: &[&Row]) {
         );
     }
     put(text, &format!("| processor time [s] | |{}", cells(&|row| row.cpu_seconds.clone())));
+    if levels.iter().any(|row| row.steps > 1) {
+        put(text, &format!("| ... a step | |{}", cells(&|row| per(row, row.steps as f64))));
+    }
+    if levels.iter().any(|row| !row.simulated_seconds.is_empty()) {
+        put(text, &format!("| ... a simulated second | |{}", cells(&|row| per(row, number(&row.simulated_seconds)))));
+    }
+    if levels.iter().any(|row| !row.repeats_percent.is_empty()) {
+        let cell = |row: &Row| format!("{} %", row.repeats_percent);
+        put(text, &format!("| last periods repeat to | |{}", cells(&cell)));
+    }
+    let missing: Vec<String> = (1..=case.levels.len())
+        .filter(|number| levels.iter().all(|row| row.level != *number))
+        .map(|number| number.to_string())
+        .collect();
+    if !missing.is_empty() {
+        put(text, &format!("\nLevel {} has not been run.", missing.join(" and ")));
+    }
     if levels.len() > 1 {
         put(text, &format!("\n![Errors of {0} over unknowns](benchmarks/{0}.svg)", case.name));
+    }
+    if case.until.is_some() {
+        put(text, &format!("\n![Last periods of {0}](benchmarks/{0}-signals.svg)", case.name));
     }
     if !case.remark.is_empty() {
         put(text, &format!("\n{}", case.remark.trim()));
     }
+}
+
+/// Processor time for each of so many \[s\].
+fn per(row: &Row, count: f64) -> String {
+    let each = number(&row.cpu_seconds) / count;
+    if each.is_finite() { format!("{each:.3}") } else { String::new() }
 }
 
 fn put(text: &mut String, line: &str) {
@@ -113,6 +139,8 @@ mod tests {
             steps: 1,
             cpu_seconds: "0.01".into(),
             coupling_per_step: String::new(),
+            simulated_seconds: String::new(),
+            repeats_percent: String::new(),
         }
     }
 
@@ -133,6 +161,7 @@ mod tests {
                 reference: -66.1,
                 target_percent: 1.0,
             }],
+            until: None,
             scene: "scenes/flag".into(),
         };
         let page = markdown(&[case], &[row(1, "-64", "3.177"), row(2, "-65", "1.664")]);

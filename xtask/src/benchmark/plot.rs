@@ -113,6 +113,8 @@ mod tests {
             steps: 1,
             cpu_seconds: "1".into(),
             coupling_per_step: String::new(),
+            simulated_seconds: String::new(),
+            repeats_percent: String::new(),
         }
     }
 

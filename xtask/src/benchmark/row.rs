@@ -21,15 +21,19 @@ pub(super) struct Row {
     pub(super) cpu_seconds: String,
     /// Coupling iterations a step; empty where nothing is coupled.
     pub(super) coupling_per_step: String,
+    /// Time at the end of the run \[s\]; empty where there is no time.
+    pub(super) simulated_seconds: String,
+    /// How well the last periods repeat each other \[%\]; empty where nobody asked.
+    pub(super) repeats_percent: String,
 }
 
-const HEAD: &str = "case,level,quantity,reference,ours,error_percent,target_percent,dofs,steps,cpu_seconds,coupling_per_step";
+const HEAD: &str = "case,level,quantity,reference,ours,error_percent,target_percent,dofs,steps,cpu_seconds,coupling_per_step,simulated_seconds,repeats_percent";
 
 /// Part by which a repeated number may differ: the file keeps six digits.
 const SAME: f64 = 2e-5;
 
 impl Row {
-    fn cells(&self) -> [String; 11] {
+    fn cells(&self) -> [String; 13] {
         [
             self.case.clone(),
             self.level.to_string(),
@@ -42,12 +46,15 @@ impl Row {
             self.steps.to_string(),
             self.cpu_seconds.clone(),
             self.coupling_per_step.clone(),
+            self.simulated_seconds.clone(),
+            self.repeats_percent.clone(),
         ]
     }
 
     fn read(line: &str) -> Option<Self> {
         let cells: Vec<&str> = line.split(',').collect();
-        let [case, level, quantity, reference, ours, error, target, dofs, steps, cpu, coupling] = cells[..]
+        let [case, level, quantity, reference, ours, error, target, dofs, steps, cpu, coupling, time, repeats] =
+            cells[..]
         else {
             return None;
         };
@@ -63,6 +70,8 @@ impl Row {
             steps: steps.parse().ok()?,
             cpu_seconds: cpu.to_owned(),
             coupling_per_step: coupling.to_owned(),
+            simulated_seconds: time.to_owned(),
+            repeats_percent: repeats.to_owned(),
         })
     }
 
@@ -136,6 +145,8 @@ mod tests {
             steps: 1,
             cpu_seconds: "0.01".into(),
             coupling_per_step: String::new(),
+            simulated_seconds: String::new(),
+            repeats_percent: String::new(),
         }
     }
 

@@ -7,9 +7,10 @@ use std::process::Command;
 
 use serde::Deserialize;
 
-use super::case::{Case, Quantity, Take};
+use super::case::{Case, Quantity, Take, Until};
 use super::row::{Row, six_digits};
-use super::signal::last_period;
+use super::signal::{last_period, repetition};
+use super::signals::{self, Samples};
 use crate::task::{TaskError, captured, run};
 
 /// Checkpoints of a run, the older one second.
@@ -25,14 +26,24 @@ struct Summary {
     cpu_seconds: Option<f64>,
 }
 
-/// The rows of a level; the run behind them is in `folder/<case>-<level>`.
+/// What a level came to.
+pub(super) struct Found {
+    /// A row a quantity.
+    pub(super) rows: Vec<Row>,
+    /// The last periods of a case that has some.
+    pub(super) samples: Option<Samples>,
+    /// The folder of the run.
+    pub(super) dir: PathBuf,
+}
+
+/// What comes out of a level; the run behind it is in `folder/<case>-<level>`.
 pub(super) fn level(
     root: &Path,
     binary: &Path,
     case: &Case,
     level: usize,
     folder: &Path,
-) -> Result<Vec<Row>, TaskError> {
+) -> Result<Found, TaskError> {
     let settings: Vec<&str> =
         case.set.iter().chain(&case.levels[level - 1]).flat_map(|set| ["--set", set.as_str()]).collect();
     let scene = case.scene.strip_prefix(root).unwrap_or(&case.scene);
@@ -41,21 +52,30 @@ pub(super) fn level(
         binary,
         dir: folder.join(format!("{}-{level}", case.name)),
         key: key(binary, &case.scene, &settings)?,
+        until: case.until.as_ref(),
     };
     let summary = run.outcome(scene, &settings)?;
     let mut check = run.program("check");
     check.arg(scene).args(&settings);
     let dofs = unknowns(&captured(check)?);
     let probes = Probes::read(&run.dir.join("probes.csv"))?;
-    case.quantities
-        .iter()
-        .map(|quantity| {
-            let ours = probes.take(quantity).map_err(|what| {
-                TaskError::Failed(format!("{} level {level}, {}: {what}", case.name, quantity.name))
-            })?;
-            Ok(row(case, level, quantity, ours, dofs, &summary))
+    let time = if case.until.is_some() { probes.end() } else { None };
+    let repeats = case.until.as_ref().and_then(|until| probes.repetition(until));
+    let rows = case.quantities.iter().map(|quantity| {
+        let ours = probes.take(quantity).map_err(|what| {
+            TaskError::Failed(format!("{} level {level}, {}: {what}", case.name, quantity.name))
+        })?;
+        Ok(Row {
+            simulated_seconds: time.map_or_else(String::new, six_digits),
+            repeats_percent: repeats.map_or_else(String::new, |percent| format!("{percent:.2}")),
+            ..row(case, level, quantity, ours, dofs, &summary)
         })
-        .collect()
+    });
+    Ok(Found {
+        rows: rows.collect::<Result<_, TaskError>>()?,
+        samples: signals::last(case, &probes.0),
+        dir: run.dir,
+    })
 }
 
 fn row(case: &Case, level: usize, quantity: &Quantity, ours: f64, dofs: usize, summary: &Summary) -> Row {
@@ -74,6 +94,8 @@ fn row(case: &Case, level: usize, quantity: &Quantity, ours: f64, dofs: usize, s
         cpu_seconds: summary.cpu_seconds.map_or_else(String::new, |seconds| format!("{seconds:.2}")),
         // A field alone takes one "iteration" a step.
         coupling_per_step: if coupled > 1.0 { format!("{coupled:.2}") } else { String::new() },
+        simulated_seconds: String::new(),
+        repeats_percent: String::new(),
     }
 }
 
@@ -83,6 +105,8 @@ struct Run<'a> {
     binary: &'a Path,
     dir: PathBuf,
     key: String,
+    /// Where it may end before its scene does.
+    until: Option<&'a Until>,
 }
 
 impl Run<'_> {
@@ -91,17 +115,14 @@ impl Run<'_> {
     fn outcome(&self, scene: &Path, settings: &[&str]) -> Result<Summary, TaskError> {
         if self.is_this_one() {
             if let Ok(summary) = self.summary()
-                && summary.ending == "completed"
+                && self.is_over(&summary)?
             {
                 eprintln!("{}: done before", self.name());
                 return self.judged(summary);
             }
             if CHECKPOINTS.iter().any(|name| self.dir.join(name).is_file()) {
                 eprintln!("{}: taken up where it was cut off", self.name());
-                let mut command = self.program("resume");
-                command.arg(&self.dir).arg("--quiet");
-                run(command)?;
-                return self.judged(self.summary()?);
+                return self.to_its_end();
             }
         }
         eprintln!("{}: begun", self.name());
@@ -114,8 +135,42 @@ impl Run<'_> {
             .map_err(|source| TaskError::File { path: self.key_file(), source })?;
         let mut command = self.program("run");
         command.arg(scene).args(settings).arg("--quiet").arg("--out").arg(&self.dir);
+        if let Some(until) = self.until {
+            command.args(["--steps", &until.every.to_string()]);
+        }
         run(command)?;
-        self.judged(self.summary()?)
+        self.to_its_end()
+    }
+
+    /// Takes the run up as often as it needs; between two times it is looked at whether its periods repeat.
+    fn to_its_end(&self) -> Result<Summary, TaskError> {
+        loop {
+            let steps = match self.summary() {
+                Ok(summary) if self.is_over(&summary)? => return self.judged(summary),
+                Ok(summary) if !["stopped", "interrupted"].contains(&summary.ending.as_str()) => {
+                    return self.judged(summary);
+                }
+                Ok(summary) => summary.steps,
+                // It was cut off before it could write one.
+                Err(_) => 0,
+            };
+            let mut command = self.program("resume");
+            command.arg(&self.dir).arg("--quiet");
+            if let Some(until) = self.until {
+                command.args(["--steps", &(steps + until.every).to_string()]);
+            }
+            run(command)?;
+        }
+    }
+
+    /// Whether nothing is left to do.
+    fn is_over(&self, summary: &Summary) -> Result<bool, TaskError> {
+        if summary.ending == "completed" {
+            return Ok(true);
+        }
+        let Some(until) = self.until.filter(|_| summary.ending == "stopped") else { return Ok(false) };
+        let probes = Probes::read(&self.dir.join("probes.csv"))?;
+        Ok(probes.repetition(until).is_some_and(|percent| percent < until.percent))
     }
 
     /// Removes the key first: a folder without one is never taken for a run.
@@ -132,7 +187,8 @@ impl Run<'_> {
     }
 
     fn judged(&self, summary: Summary) -> Result<Summary, TaskError> {
-        if summary.converged && summary.ending == "completed" {
+        let at_its_end = summary.ending == "completed" || self.is_over(&summary)?;
+        if summary.converged && at_its_end {
             return Ok(summary);
         }
         let Summary { ending, converged, steps, .. } = summary;
@@ -232,6 +288,16 @@ impl Probes {
             }
         }
         Self(names.into_iter().map(str::to_owned).zip(columns).collect())
+    }
+
+    /// The time at the end \[s\].
+    fn end(&self) -> Option<f64> {
+        self.0.get("time")?.last().copied()
+    }
+
+    /// How well the last periods repeat each other \[%\]; nothing where there are too few.
+    fn repetition(&self, until: &Until) -> Option<f64> {
+        repetition(self.0.get("time")?, self.0.get(&until.column)?, until.periods)
     }
 
     /// The value of a quantity, in its own unit.

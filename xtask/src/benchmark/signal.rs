@@ -20,14 +20,45 @@ const SWUNG: f64 = 0.3;
 /// The period lies between the last two upward crossings of the middle between the extremes of the second half of the
 /// run; crossings are interpolated on a line, extremes by a parabola through three samples.
 pub(super) fn last_period(times: &[f64], values: &[f64]) -> Option<Swing> {
-    let settled = &values[values.len() / 2..];
-    let (low, high) = range(settled.iter().copied())?;
-    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-    let crossings = upward_crossings(times, values, middle, SWUNG * half);
-    let [.., (begin, first), (end, last)] = &crossings[..] else { return None };
-    let extremes = (*first..=*last).flat_map(|i| [values[i], at_the_top(times, values, i)]);
+    let crossings = crossings(times, values);
+    let [.., begin, end] = crossings[..] else { return None };
+    between(times, values, begin, end)
+}
+
+/// How well the last so many periods repeat each other \[%\]: the largest difference of amplitude or length from the last
+/// one's. Nothing where there are fewer.
+pub(super) fn repetition(times: &[f64], values: &[f64], periods: usize) -> Option<f64> {
+    let crossings = crossings(times, values);
+    let recent = &crossings[crossings.len().checked_sub(periods + 1)?..];
+    let swings: Vec<Swing> = recent
+        .windows(2)
+        .map(|pair| between(times, values, pair[0], pair[1]))
+        .collect::<Option<_>>()?;
+    let last = swings.last()?;
+    let differences = swings.iter().flat_map(|swing| {
+        [swing.amplitude / last.amplitude - 1.0, last.frequency / swing.frequency - 1.0].map(f64::abs)
+    });
+    Some(100.0 * differences.fold(0.0, f64::max))
+}
+
+/// First sample of the last so many periods, or of all where there are fewer, and the time at which the last one begins.
+pub(super) fn last_samples(times: &[f64], values: &[f64], periods: usize) -> Option<(usize, f64)> {
+    let crossings = crossings(times, values);
+    let [.., begin, _] = crossings[..] else { return None };
+    Some((crossings[crossings.len().saturating_sub(periods + 1)].1, begin.0))
+}
+
+/// Where periods begin: upward crossings of the middle of the second half of the run.
+fn crossings(times: &[f64], values: &[f64]) -> Vec<(f64, usize)> {
+    let Some((low, high)) = range(values[values.len() / 2..].iter().copied()) else { return Vec::new() };
+    upward_crossings(times, values, 0.5 * (low + high), SWUNG * 0.5 * (high - low))
+}
+
+/// The period between two crossings.
+fn between(times: &[f64], values: &[f64], begin: (f64, usize), end: (f64, usize)) -> Option<Swing> {
+    let extremes = (begin.1..=end.1).flat_map(|i| [values[i], at_the_top(times, values, i)]);
     let (low, high) = range(extremes)?;
-    Some(Swing { mean: 0.5 * (high + low), amplitude: 0.5 * (high - low), frequency: 1.0 / (end - begin) })
+    Some(Swing { mean: 0.5 * (high + low), amplitude: 0.5 * (high - low), frequency: 1.0 / (end.0 - begin.0) })
 }
 
 /// Smallest and largest of some numbers, if there are two different ones.
@@ -129,6 +160,28 @@ mod tests {
     fn extremes_between_samples_are_found() {
         let swing = sampled(0.1, 400, |t| (TAU * t + 0.2).sin()).expect("periods");
         close(swing, [0.0, 1.0, 1.0], 6e-3);
+    }
+
+    #[test]
+    fn repetition_is_the_largest_difference_of_the_last_periods() {
+        let times: Vec<f64> = (0..2000).map(|i| 0.005 * f64::from(i)).collect();
+        let steady: Vec<f64> = times.iter().map(|&t| (TAU * t).sin()).collect();
+        assert!(repetition(&times, &steady, 4).expect("periods") < 0.1);
+        // It grows by 1 % from period to period: three of them differ by 2 % from first to last.
+        let growing: Vec<f64> = times.iter().map(|&t| 1.01_f64.powf(t) * (TAU * t).sin()).collect();
+        let found = repetition(&times, &growing, 3).expect("periods");
+        assert!((found - 2.0).abs() < 0.2, "{found}");
+        assert_eq!(repetition(&times, &growing, 20), None);
+        assert_eq!(repetition(&times, &times, 1), None);
+    }
+
+    #[test]
+    fn the_last_samples_begin_at_a_crossing() {
+        let times: Vec<f64> = (0..1000).map(|i| 0.01 * f64::from(i)).collect();
+        let values: Vec<f64> = times.iter().map(|&t| (TAU * (t - 0.255)).sin()).collect();
+        let (first, last) = last_samples(&times, &values, 2).expect("periods");
+        assert!((times[first] - 7.26).abs() < 1e-9 && (last - 8.255).abs() < 1e-3, "{} {last}", times[first]);
+        assert_eq!(last_samples(&times, &values, 99).expect("all").0, 26);
     }
 
     #[test]

@@ -55,6 +55,8 @@ pub enum Probe {
     FluidEnergy,
     /// Change of the mesh's volume that no flow makes up for \[m3/s, in 2D m2/s\].
     VolumeDefect,
+    /// The fluid's mesh: smallest cell as part of what it was at t = 0, worst shape (1 is equilateral); both 1 where nothing moves.
+    MeshQuality,
     /// Work of the fluid on the structure in the step \[J, in 2D J/m\].
     InterfaceWork,
 }

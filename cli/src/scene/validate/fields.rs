@@ -65,7 +65,8 @@ fn check_probe(check: &mut Check<'_>, scene: &Scene, name: &str, probe: &Probe) 
         | Probe::FluidExtremes(_)
         | Probe::FluidFlowRate(_)
         | Probe::FluidEnergy
-        | Probe::VolumeDefect => (!fluid).then_some("fluid"),
+        | Probe::VolumeDefect
+        | Probe::MeshQuality => (!fluid).then_some("fluid"),
         Probe::InterfaceWork if !fluid => Some("fluid"),
         Probe::InterfaceWork => (!structure).then_some("structure"),
     };

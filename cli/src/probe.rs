@@ -1,5 +1,6 @@
 //! Values that a scene wants to see at every step.
 
+mod exact;
 mod line;
 
 use std::collections::BTreeMap;
@@ -36,6 +37,7 @@ enum FluidPlace {
     Force(Vec<String>),
     Node(usize),
     Line(Samples),
+    Error(schema::Known),
     FlowRate(Vec<String>),
     Energy,
     VolumeDefect,
@@ -63,7 +65,7 @@ impl Probes {
         const CHECKED: &str = "the scene's probes were checked against its fields";
         let values = |place: &Place| match place {
             Place::Structure(place) => place.values(run.second().field().expect(CHECKED)),
-            Place::Fluid(place) => place.values(run.first().field().expect(CHECKED)),
+            Place::Fluid(place) => place.values(run.first().field().expect(CHECKED), run.clock().time),
         };
         self.places.iter().flat_map(values).collect()
     }
@@ -87,6 +89,7 @@ fn quantities(probe: &schema::Probe) -> &'static [&'static str] {
         Probe::FluidExtremes(_) => {
             &["smallest_velocity_x", "largest_velocity_x", "smallest_velocity_y", "largest_velocity_y"]
         }
+        Probe::FluidError(_) => &["velocity_error", "pressure_error"],
         Probe::FluidFlowRate(_) => &["flow_rate"],
         Probe::FluidEnergy => &["kinetic_energy"],
         Probe::VolumeDefect => &["volume_defect"],
@@ -115,6 +118,7 @@ fn place(probe: &schema::Probe, run: &Run) -> Place {
         Probe::FluidExtremes(line) => {
             FluidPlace::Line(Samples::new(mesh(), line.from.map(Real::get), line.to.map(Real::get)))
         }
+        Probe::FluidError(known) => FluidPlace::Error(known.clone()),
         Probe::FluidFlowRate(groups) => FluidPlace::FlowRate(groups.names().to_vec()),
         Probe::FluidEnergy => FluidPlace::Energy,
         Probe::VolumeDefect => FluidPlace::VolumeDefect,
@@ -133,12 +137,16 @@ impl StructurePlace {
 }
 
 impl FluidPlace {
-    fn values(&self, fluid: &FluidSolver<2>) -> Vec<f64> {
+    /// The values of `fluid`, whose state is that at `time` \[s\].
+    fn values(&self, fluid: &FluidSolver<2>, time: f64) -> Vec<f64> {
         const CHECKED: &str = "the scene's probes were checked against the groups of the mesh";
         match self {
             Self::Force(groups) => fluid.force_on_all(groups).expect(CHECKED).to_vec(),
             Self::Node(node) => fluid.values()[3 * node..3 * node + 3].to_vec(),
             Self::Line(samples) => samples.extremes(fluid.values()).as_flattened().to_vec(),
+            Self::Error(known) => {
+                exact::errors(known, fluid.mesh().cells(), fluid.points(), fluid.values(), time).to_vec()
+            }
             Self::FlowRate(groups) => {
                 vec![groups.iter().map(|group| fluid.flow_rate(group).expect(CHECKED)).sum()]
             }

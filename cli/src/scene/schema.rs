@@ -39,7 +39,7 @@ pub use numbers::{
     Count, Fraction, Halvings, NonNegative, NotACount, OutOfRange, Parameter, PoissonRatio, Positive, Real,
     Relaxation, SpectralRadius,
 };
-pub use output::{Line, Output, Probe};
+pub use output::{Known, Line, Output, Probe};
 pub use structure::{Elastic, Material, Part, Plane, RayleighDamping, Structure, StructureTimeScheme};
 
 /// A whole scene: a fluid, a structure, or both coupled.

@@ -1,3 +1,4 @@
 //! Orders of convergence of the coupled problem.
 
+mod manufactured;
 mod time;

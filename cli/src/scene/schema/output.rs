@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::formula::{Formula, VectorFormula};
 use super::groups::Groups;
 use super::numbers::{Count, Parameter, Real};
 
@@ -49,6 +50,8 @@ pub enum Probe {
     FluidValue([Real; 2]),
     /// Smallest and largest velocity components \[m/s\] along a line, before it moves with the mesh.
     FluidExtremes(Line),
+    /// Distance of the flow from a known one: root mean squares over the fluid \[m/s, Pa\].
+    FluidError(Known),
     /// Volume of fluid a second that leaves through this boundary group, or several together \[m3/s, in 2D m2/s\].
     FluidFlowRate(Groups),
     /// Kinetic energy of the fluid \[J, in 2D J/m\].
@@ -59,6 +62,16 @@ pub enum Probe {
     MeshQuality,
     /// Work of the fluid on the structure in the step \[J, in 2D J/m\].
     InterfaceWork,
+}
+
+/// `output.probes.<name>.fluid_error`: an exact solution.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Known {
+    /// Its velocity \[m/s\] in `x`, `y`, `t`.
+    pub velocity: VectorFormula,
+    /// Its pressure \[Pa\] in `x`, `y`, `t`.
+    pub pressure: Formula,
 }
 
 /// `output.probes.<name>.fluid_extremes`: a straight line.

@@ -63,6 +63,7 @@ fn check_probe(check: &mut Check<'_>, scene: &Scene, name: &str, probe: &Probe) 
         Probe::FluidForce(_)
         | Probe::FluidValue(_)
         | Probe::FluidExtremes(_)
+        | Probe::FluidError(_)
         | Probe::FluidFlowRate(_)
         | Probe::FluidEnergy
         | Probe::VolumeDefect

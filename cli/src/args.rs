@@ -27,6 +27,8 @@ pub(crate) enum Command {
     Resume(Resume),
     /// Run a scene at many settings and show what accuracy costs.
     Study(Study),
+    /// Run a scene over two parameters and some choices, and draw a map of what converges.
+    Stability(Stability),
 }
 
 #[derive(Debug, Args)]
@@ -72,6 +74,25 @@ pub(crate) struct Study {
     /// Name the cheapest setting with at most this error, instead of the study's own.
     #[arg(long, value_name = "ERROR", value_parser = positive)]
     pub(crate) wanted: Option<f64>,
+    /// Show no progress and print nothing.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Stability {
+    /// Map file; the library's documentation of `stability` and docs/stability.md say what stands in it.
+    #[arg(value_name = "MAP")]
+    pub(crate) path: PathBuf,
+    /// Folder for table and picture; finished cells in it are not run again [default: runs/<name of the map>].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Cells run at a time; the results are the same for any number [default: as many as there are processors].
+    #[arg(long, value_name = "N")]
+    pub(crate) jobs: Option<NonZeroUsize>,
+    /// Run all cells again.
+    #[arg(long)]
+    pub(crate) force: bool,
     /// Show no progress and print nothing.
     #[arg(long)]
     pub(crate) quiet: bool,

@@ -10,6 +10,7 @@ use partita::checkpoint::CheckpointError;
 use partita::output::{self, OutputError};
 use partita::scene::SceneError;
 use partita::session::RunError;
+use partita::stability::StoreError;
 use partita::study::{StudyError, StudyFailure};
 use partita_mesh::vtu::VtuError;
 
@@ -74,6 +75,16 @@ impl From<SceneError> for Failure {
 impl From<BuildError> for Failure {
     fn from(error: BuildError) -> Self {
         Self { code: WRONG_INPUT, report: Complaint::from_display(&error).into() }
+    }
+}
+
+impl From<StoreError> for Failure {
+    fn from(error: StoreError) -> Self {
+        let code = match error {
+            StoreError::Foreign { .. } | StoreError::InUse { .. } => WRONG_INPUT,
+            StoreError::File { .. } => FAILED_RUN,
+        };
+        Self { code, report: Complaint::from_display(&error).into() }
     }
 }
 

@@ -13,4 +13,5 @@ mod probe;
 pub mod progress;
 pub mod scene;
 pub mod session;
+pub mod stability;
 pub mod study;

@@ -12,10 +12,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Parser;
 use partita::output::{Clock, Ending, Summary};
 use partita::session::{Options, RunError, Session};
-use partita::study;
-use partita::{build, check, output, scene};
+use partita::{build, check, output, scene, stability, study};
 
-use args::{Arguments, Check, Command, Manner, Resume, Run, Study};
+use args::{Arguments, Check, Command, Manner, Resume, Run, Stability, Study};
 use failure::Failure;
 
 /// Set when the user asks to stop; the run ends after its step.
@@ -31,6 +30,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check(&arguments),
         Command::Resume(arguments) => resume(&arguments, clock),
         Command::Study(arguments) => study(&arguments),
+        Command::Stability(arguments) => stability(&arguments),
     };
     outcome.unwrap_or_else(|failure| failure.show())
 }
@@ -78,6 +78,35 @@ fn study(arguments: &Study) -> Result<ExitCode, Failure> {
         print(&format!("{}\n{}", report.table().to_plain(), report.answer()))?;
     }
     Ok(if report.interrupted { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
+}
+
+fn stability(arguments: &Stability) -> Result<ExitCode, Failure> {
+    let map = stability::Map::load(&arguments.path)?;
+    let dir = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(&map.name));
+    let processors = || std::thread::available_parallelism().map_or(1, Into::into);
+    stop_when_interrupted();
+    let options = stability::Options {
+        jobs: arguments.jobs.map_or_else(processors, Into::into),
+        fresh: arguments.force,
+        quiet: arguments.quiet,
+        stop: &STOP,
+    };
+    match stability::run(&map, &dir, options)? {
+        stability::Ending::Finished(rows) => {
+            if !arguments.quiet {
+                print(&stability::summary(&map, &rows))?;
+                eprintln!("output in {}", dir.display());
+            }
+            Ok(ExitCode::SUCCESS)
+        }
+        stability::Ending::Interrupted(finished) => {
+            eprintln!(
+                "{finished} of {} cells are finished and kept; the same command goes on from there",
+                map.cells.len()
+            );
+            Ok(ExitCode::from(INTERRUPTED))
+        }
+    }
 }
 
 /// The first interrupt waits for the end of the step, the second does not. Where no handler can be set, the system's own

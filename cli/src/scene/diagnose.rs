@@ -38,6 +38,24 @@ impl SceneError {
         Self { problems: vec![Problem { what: what.into(), hint: hint.into(), excerpt: None }] }
     }
 
+    /// A problem with places in a text that is no scene; `marks` are places and what is said of them.
+    pub(crate) fn in_text(
+        name: &str,
+        text: &str,
+        what: &str,
+        hint: &str,
+        marks: &[(Range<usize>, &str)],
+    ) -> Self {
+        let marks = marks.iter().map(|(place, label)| (place.clone(), (*label).to_owned())).collect();
+        let excerpt = Some(Excerpt { source: NamedSource::new(name, text.to_owned()), marks });
+        Self { problems: vec![Problem { what: what.to_owned(), hint: hint.to_owned(), excerpt }] }
+    }
+
+    /// What the first problem is, and how to mend it.
+    pub(crate) fn first(&self) -> (String, String) {
+        self.problems.first().map_or_else(Default::default, |p| (p.what.clone(), p.hint.clone()))
+    }
+
     /// A problem with one argument of the command line.
     pub(super) fn argument(given: &str, what: &str, hint: &str) -> Self {
         let source = NamedSource::new("--set", given.to_owned());

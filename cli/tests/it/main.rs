@@ -12,6 +12,7 @@ mod relaxation;
 mod retry;
 mod scene;
 mod solid;
+mod stability;
 mod static_tank;
 mod study;
 mod tank;

@@ -1,0 +1,1 @@
+//! The hardest corners of the shipped maps, few steps each.

@@ -198,6 +198,12 @@ impl<const D: usize> FluidSolver<D> {
         self.factor.fallbacks()
     }
 
+    /// Bytes of the factor of a tangent, by far the largest thing in here.
+    #[must_use]
+    pub fn factor_bytes(&self) -> Option<usize> {
+        self.factor.factor_bytes()
+    }
+
     /// The motion of the mesh; nothing where no boundary moves.
     #[must_use]
     pub fn mesh_motion(&self) -> Option<&MeshMotion<D>> {

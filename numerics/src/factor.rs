@@ -173,6 +173,17 @@ impl Factor {
         }
     }
 
+    /// Bytes that the numbers of the factor take, padding included; nothing for [`Method::Lu`], where faer does not tell.
+    #[must_use]
+    pub fn factor_bytes(&self) -> Option<usize> {
+        match &self.backend {
+            Backend::Empty => Some(0),
+            Backend::Lu(_) => None,
+            Backend::NodeBlockLu(lu) => Some(lu.factor_bytes()),
+            Backend::Cholesky(cholesky) => Some(cholesky.factor_bytes()),
+        }
+    }
+
     /// The largest error with which the last factor reproduced a known solution, relative to the scale of
     /// each unknown's column: round-off times a condition number.
     #[must_use]

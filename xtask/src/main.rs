@@ -14,6 +14,7 @@ mod ci;
 mod csv;
 mod infer;
 mod options;
+mod performance;
 mod picture;
 mod reproduce;
 mod sensitivity;
@@ -41,6 +42,9 @@ Tasks:
   benchmark [CASE]...    run published benchmarks on all levels and compare with docs/data/benchmarks.csv
     --level L            only this level, 1 is the coarsest
     --mode MODE          check (default), or write: keep the results, draw docs/benchmarks.md and its pictures
+  performance            time the fluid's parts and whole steps, write docs/data/performance.csv and docs/performance.md
+    --largest DOFS       leave out sizes of more unknowns, such as 100000
+    --mode MODE          write (default), or check: measure nothing, fail where the page differs from the data
   infer                  search the values that the paper does not give, as paper/inference.md says; options
                          --mode, --jobs and --fresh as above
   sensitivity            judge the claims on cases with other values, write paper/results/sensitivity.csv
@@ -66,6 +70,7 @@ fn dispatch(arguments: &[&str]) -> Result<(), TaskError> {
         ["tidy"] => tidy::run(root),
         ["reproduce", options @ ..] => reproduce::run(root, &Options::parse("reproduce", options)?),
         ["benchmark", options @ ..] => benchmark::run(root, options),
+        ["performance", options @ ..] => performance::run(root, options),
         ["infer", options @ ..] => infer::run(root, &Options::parse("infer", options)?),
         ["sensitivity", options @ ..] => sensitivity::run(root, &Options::parse("sensitivity", options)?),
         ["beyond", options @ ..] => beyond::run(root, &Options::parse("beyond", options)?),

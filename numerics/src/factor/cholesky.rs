@@ -55,6 +55,10 @@ impl Cholesky {
         Ok(Self { kind, symbolic, triangle, slots, triangle_values, factor_values, scratch })
     }
 
+    pub(super) fn factor_bytes(&self) -> usize {
+        size_of_val(&*self.factor_values)
+    }
+
     pub(super) fn refactor(&mut self, values: &[f64]) -> Result<(), FactorError> {
         for (entry, &slot) in self.triangle_values.iter_mut().zip(&self.slots) {
             *entry = values[slot];

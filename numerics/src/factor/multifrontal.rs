@@ -74,6 +74,10 @@ impl Multifrontal {
         Ok(())
     }
 
+    pub(super) fn factor_bytes(&self) -> usize {
+        size_of_val(&*self.numeric.factors) + size_of_val(&*self.numeric.interchanges)
+    }
+
     pub(super) fn solve(&mut self, rhs: &mut [f64]) {
         let Self { symbolic, numeric, space } = self;
         space.load(symbolic, rhs);

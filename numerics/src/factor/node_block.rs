@@ -40,6 +40,11 @@ impl NodeBlockLu {
         self.fallbacks
     }
 
+    /// Of the fast factor; what the safe one takes is unknown.
+    pub(super) fn factor_bytes(&self) -> usize {
+        self.fast.factor_bytes()
+    }
+
     pub(super) fn solve(&mut self, rhs: &mut [f64]) {
         match &mut self.safe {
             Some(safe) if self.fell_back => safe.solve(rhs),

@@ -18,6 +18,7 @@ use std::path::{Path, PathBuf};
 use case::Case;
 use options::{Mode, Options};
 use row::Row;
+pub(crate) use run::unknowns;
 
 use crate::task::{TaskError, cargo, run as run_command};
 
@@ -62,7 +63,7 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
 }
 
 /// Builds the program; it lies beside the profile of this one.
-fn release_binary(root: &Path) -> Result<PathBuf, TaskError> {
+pub(crate) fn release_binary(root: &Path) -> Result<PathBuf, TaskError> {
     run_command(cargo(root, &["build", "--release", "--package", "partita", "--bin", "partita"]))?;
     let this =
         std::env::current_exe().map_err(|source| TaskError::File { path: PathBuf::from("xtask"), source })?;

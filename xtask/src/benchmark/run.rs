@@ -258,7 +258,7 @@ fn shapes(scenes: &Path) -> Result<Vec<PathBuf>, TaskError> {
 }
 
 /// Sum of the counts before the word `unknowns` in what `partita check` says.
-fn unknowns(described: &str) -> usize {
+pub(crate) fn unknowns(described: &str) -> usize {
     let words: Vec<&str> =
         described.split_whitespace().map(|word| word.trim_end_matches([',', ';'])).collect();
     words

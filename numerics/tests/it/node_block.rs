@@ -134,31 +134,53 @@ fn large_fronts_and_shuffled_nodes_agree_with_faer() {
     assert!(alone && difference < 1e-10, "{difference:e}, alone: {alone}");
 }
 
+/// `|b - A x|_i / (|A| |x| + |b|)_i` at its largest, after one step of iterative refinement.
+fn refined_backward_error(pattern: &Pattern, values: &[f64], factor: &mut Factor) -> f64 {
+    let rhs = vector(pattern.size());
+    let mut x = solved(factor, &rhs);
+    let mut product = rhs.clone();
+    pattern.multiply(values, x.as_slice(), product.as_mut_slice());
+    x += solved(factor, &(&rhs - &product));
+    pattern.multiply(values, x.as_slice(), product.as_mut_slice());
+    let sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
+    let mut scale = rhs.clone();
+    pattern.multiply(&sizes, x.abs().as_slice(), scale.as_mut_slice());
+    let scale = scale + rhs.abs();
+    (&rhs - &product).abs().component_div(&scale).amax()
+}
+
 #[test]
 fn one_step_of_refinement_leaves_nothing_but_round_off() {
     for reynolds in [1e-2, 1.0, 1e2, 1e4, 1e6] {
         for dt in [1e-6, 1e-2, 1e6] {
             let flow = Flow { viscosity: 1.0 / reynolds, dt, velocity: [1.0, 0.3] };
             let system = grid::flow(30, flow, true);
-            let (pattern, values) = (&system.pattern, &system.values);
-            let mut factor = Factor::new(Method::NodeBlockLu, pattern).unwrap();
-            factor.refactor(values).unwrap();
-            let rhs = vector(pattern.size());
-            let mut x = solved(&mut factor, &rhs);
-            let mut product = rhs.clone();
-            pattern.multiply(values, x.as_slice(), product.as_mut_slice());
-            x += solved(&mut factor, &(&rhs - &product));
-            pattern.multiply(values, x.as_slice(), product.as_mut_slice());
-            let sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-            let mut scale = rhs.clone();
-            pattern.multiply(&sizes, x.abs().as_slice(), scale.as_mut_slice());
-            let scale = scale + rhs.abs();
-            let error = (&rhs - &product).abs().component_div(&scale).amax();
+            let mut factor = Factor::new(Method::NodeBlockLu, &system.pattern).unwrap();
+            factor.refactor(&system.values).unwrap();
+            let error = refined_backward_error(&system.pattern, &system.values, &mut factor);
             assert!(error < 1e-14, "{error:e} for {flow:?}");
             // These elements are not stabilized against convection: at the highest number pivots may grow.
             assert!(factor.fallbacks() == 0 || reynolds > 1e5, "{flow:?}");
         }
     }
+}
+
+/// Beyond 50 000 equations the order is that of nested dissection alone.
+#[test]
+fn large_system_is_factored_to_round_off_and_tells_its_size() {
+    let system = grid::flow(132, Flow { viscosity: 1e-3, dt: 1e-2, velocity: [1.0, 0.3] }, true);
+    let equations = system.pattern.size();
+    assert!(equations > 50_000, "{equations}");
+    let mut factor = Factor::new(Method::NodeBlockLu, &system.pattern).unwrap();
+    factor.refactor(&system.values).unwrap();
+    let error = refined_backward_error(&system.pattern, &system.values, &mut factor);
+    assert!(error < 1e-14 && factor.fallbacks() == 0, "{error:e}");
+    // On a grid of N nodes, L fills up to 31/8 N log2 N entries (George 1973). Here is U, too, and nine numbers an entry.
+    let bytes = factor.factor_bytes().expect("the node-block LU tells");
+    let entries = bytes as f64 / 8.0;
+    let nodes = equations as f64 / 3.0;
+    let leading = 9.0 * 2.0 * 31.0 / 8.0 * nodes * nodes.log2();
+    assert!((0.4..1.0).contains(&(entries / leading)), "{entries} entries, {leading} expected");
 }
 
 /// A chain whose diagonal is zero or next to it: the pivots it needs stand in other fronts.

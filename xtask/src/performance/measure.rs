@@ -1,5 +1,6 @@
 //! Starts what is measured.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
@@ -66,11 +67,10 @@ fn add(data: &mut Data, line: &str) -> Result<(), TaskError> {
 #[derive(Debug, Deserialize)]
 struct Summary {
     steps: usize,
-    wall_seconds: f64,
-    output_seconds: f64,
+    seconds: BTreeMap<String, f64>,
 }
 
-/// Mean time of the first steps of a scene, setting up included, output left out.
+/// Mean time of the first steps of a scene, set-up and output left out.
 fn scene_steps(
     root: &Path,
     binary: &Path,
@@ -95,7 +95,9 @@ fn scene_steps(
     let file = out.join("summary.json");
     let summary: Summary = serde_json::from_str(&read(&file)?)
         .map_err(|error| TaskError::Failed(format!("{}: {error}", file.display())))?;
-    let milliseconds = 1e3 * (summary.wall_seconds - summary.output_seconds) / summary.steps.max(1) as f64;
+    let solving: f64 =
+        summary.seconds.iter().filter(|(part, _)| *part != "output").map(|(_, seconds)| seconds).sum();
+    let milliseconds = 1e3 * solving / summary.steps.max(1) as f64;
     let line = format!("step of {scene},{dofs},1,{milliseconds:.4},");
     println!("{line}");
     add(data, &line)

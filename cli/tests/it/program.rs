@@ -83,7 +83,7 @@ fn check_says_what_a_scene_is() {
                   predictor linear
                   until changes 1e-5, at most 100 iterations
                   Newton iterations a call: fixed (fluid unlimited, structure unlimited)
-      memory      about 13 MB
+      memory      about 12 MB
     scene is sound
     ");
 }

@@ -1,6 +1,12 @@
 //! From elements to the residual on all dofs and the tangent over the free ones.
 
+#![allow(
+    clippy::inline_always,
+    reason = "vector code has to be part of the entry point of its instruction set"
+)]
+
 use partita_mesh::Cells;
+use partita_numerics::lanes::{Kernel, Real, on_lanes};
 use partita_numerics::newton::ResidualNorm;
 use partita_numerics::{Connectivity, DofMap, Pattern, Scatter};
 
@@ -95,17 +101,8 @@ impl Assembly {
         iterate: &Iterate<D>,
         with_tangent: bool,
     ) -> Sizes {
+        let sizes = on_lanes(Batches::<D, N> { assembly: self, iterate, with_tangent });
         let (cells, _) = iterate.cells.nodes.as_chunks::<N>();
-        let mut sizes = Sizes::default();
-        for (cell, nodes) in cells.iter().enumerate() {
-            let tangent = with_tangent.then_some(&mut self.local[..]);
-            let (_, terms) = element(&iterate.gather(nodes), iterate.flow, tangent);
-            sizes.add(&terms);
-            self.add_terms(nodes, &terms);
-            if with_tangent {
-                self.add_tangent(cell, nodes, iterate.frames);
-            }
-        }
         for facet in iterate.natural {
             self.facet(facet, &cells[facet.cell], iterate, with_tangent);
         }
@@ -119,7 +116,7 @@ impl Assembly {
         iterate: &Iterate<D>,
         with_tangent: bool,
     ) {
-        let element = Element::new(&iterate.gather(nodes), iterate.flow);
+        let element = Element::new(&iterate.gather(0.0, |_| nodes), iterate.flow);
         let mut terms = Terms::ZERO;
         self.local.fill(0.0);
         let tangent = with_tangent.then_some(&mut self.local[..]);
@@ -135,38 +132,62 @@ impl Assembly {
                 }
             }
         }
-        self.add_terms(nodes, &terms);
+        self.add_terms(nodes, &terms, 0);
         if with_tangent {
-            self.add_tangent(natural.cell, nodes, iterate.frames);
+            self.turn_and_add_local(natural.cell, nodes, iterate.frames);
         }
     }
 
-    #[inline]
-    fn add_terms<const D: usize, const N: usize>(&mut self, nodes: &[usize; N], terms: &Terms<D, N>) {
+    /// Adds the terms of one lane.
+    #[inline(always)]
+    fn add_terms<const D: usize, const N: usize, R: Real>(
+        &mut self,
+        nodes: &[usize; N],
+        terms: &Terms<D, N, R>,
+        lane: usize,
+    ) {
         for a in 0..N {
             let rows = &mut self.terms[nodes[a] * (D + 1)..][..=D];
             for (row, contribution) in
                 rows.iter_mut().zip(terms.momentum[a].iter().chain([&terms.continuity[a]]))
             {
                 for (sum, term) in row.iter_mut().zip(contribution) {
-                    *sum += term;
+                    *sum += term.lanes()[lane];
                 }
             }
         }
     }
 
-    #[inline]
-    fn add_tangent<const D: usize, const N: usize>(
+    /// Adds the element matrix of one lane.
+    #[inline(always)]
+    fn add_tangent<const D: usize, const N: usize, R: Real>(
+        &mut self,
+        (cell, nodes): (usize, &[usize; N]),
+        matrix: &[R],
+        lane: usize,
+        frames: &Frames<D>,
+    ) {
+        let entries = matrix.iter().map(|entry| entry.lanes()[lane]);
+        if frames.turned_nodes().is_empty() {
+            self.scatter.add_entries(cell, entries, &mut self.tangent);
+        } else {
+            for (local, entry) in self.local.iter_mut().zip(entries) {
+                *local = entry;
+            }
+            self.turn_and_add_local(cell, nodes, frames);
+        }
+    }
+
+    /// Adds the local matrix, in the frames of its nodes.
+    fn turn_and_add_local<const D: usize, const N: usize>(
         &mut self,
         cell: usize,
         nodes: &[usize; N],
         frames: &Frames<D>,
     ) {
-        if !frames.turned_nodes().is_empty() {
-            for (a, &node) in nodes.iter().enumerate() {
-                if let Some(frame) = frames.at(node) {
-                    turn_matrix::<D, N>(&mut self.local, a, frame);
-                }
+        for (a, &node) in nodes.iter().enumerate() {
+            if let Some(frame) = frames.at(node) {
+                turn_matrix::<D, N>(&mut self.local, a, frame);
             }
         }
         self.scatter.add_matrix(cell, &self.local, &mut self.tangent);
@@ -186,30 +207,76 @@ impl Assembly {
     }
 }
 
-impl<const D: usize> Iterate<'_, D> {
-    /// The nodal values of one element.
-    #[inline]
-    fn gather<const N: usize>(&self, nodes: &[usize; N]) -> Fields<D, N> {
-        let vector = |from: &[f64], node: usize| -> [f64; D] {
-            from[node * D..][..D].try_into().expect("D components")
-        };
-        let velocity: [[f64; D]; N] =
-            nodes.map(|node| self.values[node * (D + 1)..][..D].try_into().expect("D components"));
-        let mut convective = velocity;
-        for (c, &node) in convective.iter_mut().zip(nodes) {
-            let w = vector(self.mesh_velocity, node);
-            for i in 0..D {
-                c[i] -= w[i];
+/// Evaluates as many elements at a time as there are lanes and adds them one after the other, so that no sum depends on
+/// how many these are.
+struct Batches<'a, const D: usize, const N: usize> {
+    assembly: &'a mut Assembly,
+    iterate: &'a Iterate<'a, D>,
+    with_tangent: bool,
+}
+
+impl<const D: usize, const N: usize> Kernel for Batches<'_, D, N> {
+    type Output = Sizes;
+
+    #[inline(always)]
+    fn run<R: Real>(self, zero: R) -> Sizes {
+        let Self { assembly, iterate, with_tangent } = self;
+        let flow = iterate.flow.on_lanes_of(zero);
+        let (cells, _) = iterate.cells.nodes.as_chunks::<N>();
+        let mut sizes = Sizes::default();
+        // N (D + 1) squared, and N = D + 1.
+        let mut matrix = [[[[zero; N]; N]; N]; N];
+        let matrix = matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut();
+        for (batch, cells) in cells.chunks(R::LANES).enumerate() {
+            // In the last batch, lanes without an element repeat the last one.
+            let fields = iterate.gather(
+                zero,
+                #[inline(always)]
+                |lane| &cells[lane.min(cells.len() - 1)],
+            );
+            let (_, terms) = element(&fields, &flow, with_tangent.then_some(&mut *matrix));
+            for (lane, nodes) in cells.iter().enumerate() {
+                sizes.add(&terms, lane);
+                assembly.add_terms(nodes, &terms, lane);
+                if with_tangent {
+                    let cell = batch * R::LANES + lane;
+                    assembly.add_tangent((cell, nodes), matrix, lane, iterate.frames);
+                }
             }
         }
-        Fields {
-            points: nodes.map(|node| self.points[node]),
-            velocity,
-            pressure: nodes.map(|node| self.values[node * (D + 1) + D]),
-            convective,
-            history: nodes.map(|node| vector(self.history, node)),
-            body_force: nodes.map(|node| vector(self.body_force, node)),
+        sizes
+    }
+}
+
+impl<const D: usize> Iterate<'_, D> {
+    /// The nodal values of the element with `nodes(lane)`, in each of as many lanes as `zero` has.
+    #[inline(always)]
+    fn gather<'n, const N: usize, R: Real>(
+        &self,
+        zero: R,
+        nodes: impl Fn(usize) -> &'n [usize; N],
+    ) -> Fields<D, N, R> {
+        let mut fields = Fields {
+            points: [[zero; D]; N],
+            velocity: [[zero; D]; N],
+            pressure: [zero; N],
+            convective: [[zero; D]; N],
+            history: [[zero; D]; N],
+            body_force: [[zero; D]; N],
+        };
+        for a in 0..N {
+            let of_node = |lane: usize, components: usize, i: usize| nodes(lane)[a] * components + i;
+            for i in 0..D {
+                fields.points[a][i] = zero.gather(|lane| self.points.as_flattened()[of_node(lane, D, i)]);
+                fields.velocity[a][i] = zero.gather(|lane| self.values[of_node(lane, D + 1, i)]);
+                let mesh_velocity = zero.gather(|lane| self.mesh_velocity[of_node(lane, D, i)]);
+                fields.convective[a][i] = fields.velocity[a][i] - mesh_velocity;
+                fields.history[a][i] = zero.gather(|lane| self.history[of_node(lane, D, i)]);
+                fields.body_force[a][i] = zero.gather(|lane| self.body_force[of_node(lane, D, i)]);
+            }
+            fields.pressure[a] = zero.gather(|lane| self.values[of_node(lane, D + 1, D)]);
         }
+        fields
     }
 }
 
@@ -230,3 +297,6 @@ fn turn_matrix<const D: usize, const N: usize>(matrix: &mut [f64], a: usize, fra
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -23,29 +23,38 @@
 //!
 //! (a one-point rule would make the mass matrix singular, and a Gauss rule has N points for the same result).
 //! tau is that of the centroid. The body force is interpolated at the nodes.
+//!
+//! The kernel is written for any [`Real`], so that several elements can stand side by side in the lanes of a vector
+//! register; each lane has the bits that the element has alone.
+#![allow(
+    clippy::inline_always,
+    reason = "vector code has to be part of the entry point of its instruction set"
+)]
 
 mod element;
 pub mod facet;
 mod tangent;
 mod terms;
 
+use partita_numerics::lanes::Real;
+
 pub use element::{Element, Fields, Flow, shape};
 pub use terms::{TERMS, Term, Terms};
 
-/// Residual of one element and, where wanted, its tangent (row-major, N (D + 1) square, overwritten).
+/// Residual of one element, or of one a lane, and, where wanted, its tangent (row-major, N (D + 1) square, overwritten).
 ///
 /// Local dofs are numbered like the global ones: `node * (D + 1) + component`, pressure last.
 ///
 /// # Panics
 ///
 /// If `tangent` does not have (N (D + 1))^2 entries.
-#[inline]
+#[inline(always)]
 #[must_use]
-pub fn element<const D: usize, const N: usize>(
-    fields: &Fields<D, N>,
-    flow: &Flow,
-    tangent: Option<&mut [f64]>,
-) -> (Element<D, N>, Terms<D, N>) {
+pub fn element<const D: usize, const N: usize, R: Real>(
+    fields: &Fields<D, N, R>,
+    flow: &Flow<R>,
+    tangent: Option<&mut [R]>,
+) -> (Element<D, N, R>, Terms<D, N, R>) {
     let element = Element::new(fields, flow);
     if let Some(tangent) = tangent {
         element.tangent(tangent);

@@ -1,6 +1,7 @@
 //! How large a residual is.
 
 use partita_numerics::DofMap;
+use partita_numerics::lanes::Real;
 use partita_numerics::newton::ResidualNorm;
 
 use crate::kernel::{TERMS, Terms};
@@ -18,10 +19,16 @@ pub(crate) struct Sizes {
 }
 
 impl Sizes {
+    /// Adds those of the element in one lane.
     #[inline]
-    pub(crate) fn add<const D: usize, const N: usize>(&mut self, terms: &Terms<D, N>) {
-        self.momentum += terms.momentum_size * terms.momentum_size;
-        self.continuity += terms.continuity_size * terms.continuity_size;
+    pub(crate) fn add<const D: usize, const N: usize, R: Real>(
+        &mut self,
+        terms: &Terms<D, N, R>,
+        lane: usize,
+    ) {
+        let (momentum, continuity) = (terms.momentum_size.lanes()[lane], terms.continuity_size.lanes()[lane]);
+        self.momentum += momentum * momentum;
+        self.continuity += continuity * continuity;
     }
 }
 

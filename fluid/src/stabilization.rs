@@ -1,4 +1,10 @@
 //! The stabilization parameters `tau_M` and `tau_C` of one element, and their derivatives.
+#![allow(
+    clippy::inline_always,
+    reason = "vector code has to be part of the entry point of its instruction set"
+)]
+
+use partita_numerics::lanes::{Real, array};
 
 use crate::kernel::Flow;
 
@@ -27,25 +33,26 @@ pub const INVERSE_CONSTANT: f64 = 36.0;
 /// simulation of incompressible flows*, CMAME 197 (2007), equations (63)-(64), with the metric of Pauli and
 /// Behr.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stabilization<const D: usize> {
+pub struct Stabilization<const D: usize, R = f64> {
     /// `tau_M` `[s]`.
-    pub momentum: f64,
+    pub momentum: R,
     /// `tau_C` `[Pa s]`.
-    pub continuity: f64,
+    pub continuity: R,
     /// `d tau_M / dc` `[s^2/m]`.
-    pub momentum_slope: [f64; D],
+    pub momentum_slope: [R; D],
     /// `d tau_C / dc` `[Pa s^2/m]`.
-    pub continuity_slope: [f64; D],
+    pub continuity_slope: [R; D],
 }
 
-impl<const D: usize> Stabilization<D> {
+impl<const D: usize, R: Real> Stabilization<D, R> {
     /// The parameters for the convective velocity `c` `[m/s]` and the metric `g` `[1/m^2]`.
-    #[inline]
+    #[inline(always)]
     #[must_use]
-    pub fn new(c: &[f64; D], g: &[[f64; D]; D], flow: &Flow) -> Self {
+    pub fn new(c: &[R; D], g: &[[R; D]; D], flow: &Flow<R>) -> Self {
         let nu = flow.viscosity / flow.density;
-        let (mut convection, mut squares, mut trace) = (0.0, 0.0, 0.0);
-        let mut g_c = [0.0; D];
+        let zero = flow.zero();
+        let (mut convection, mut squares, mut trace) = (zero, zero, zero);
+        let mut g_c = [zero; D];
         for i in 0..D {
             for j in 0..D {
                 g_c[i] += g[i][j] * c[j];
@@ -55,10 +62,17 @@ impl<const D: usize> Stabilization<D> {
             trace += g[i][i];
         }
         let rate = flow.four_over_dt_squared + convection + flow.inverse_constant * nu * nu * squares;
-        let momentum = 1.0 / rate.sqrt();
+        let momentum = rate.like(1.0) / rate.sqrt();
         let continuity = flow.grad_div * (flow.density / (momentum * trace));
-        let momentum_slope = g_c.map(|x| -momentum.powi(3) * x);
-        let continuity_slope = momentum_slope.map(|x| -continuity / momentum * x);
+        let cube = momentum * (momentum * momentum);
+        let momentum_slope = array(
+            #[inline(always)]
+            |i| -cube * g_c[i],
+        );
+        let continuity_slope = array(
+            #[inline(always)]
+            |i| -continuity / momentum * momentum_slope[i],
+        );
         Self { momentum, continuity, momentum_slope, continuity_slope }
     }
 }
@@ -69,14 +83,14 @@ impl<const D: usize> Stabilization<D> {
 /// numbering of the nodes, as the metric of the usual unit reference simplex does.
 ///
 /// Source: L. Pauli, M. Behr, *On stabilized space-time FEM for anisotropic meshes*, IJNMF 85 (2017).
-#[inline]
+#[inline(always)]
 #[must_use]
-pub fn metric<const D: usize, const N: usize>(gradients: &[[f64; D]; N]) -> [[f64; D]; D] {
-    let mut g = [[0.0; D]; D];
+pub fn metric<const D: usize, const N: usize, R: Real>(gradients: &[[R; D]; N]) -> [[R; D]; D] {
+    let mut g = [[gradients[0][0].like(0.0); D]; D];
     for gradient in gradients {
         for i in 0..D {
             for j in 0..D {
-                g[i][j] += 2.0 * gradient[i] * gradient[j];
+                g[i][j] += gradient[i] * 2.0 * gradient[j];
             }
         }
     }

@@ -22,6 +22,7 @@
 //! | [`newton`] | the Newton loop, its settings, its report |
 //! | [`time`] | coefficients of BDF1, BDF2, generalized-alpha and Newmark |
 //! | [`gauss`] | quadrature on lines, triangles and tetrahedra |
+//! | [`lanes`] | formulas for several numbers side by side |
 //! | [`small`] | algebra of 1x1, 2x2 and 3x3 matrices |
 //! | [`norms`] | norms and relative changes |
 //! | [`phases`] | seconds per phase of a solver call |
@@ -34,6 +35,7 @@ pub mod connectivity;
 pub mod dofs;
 pub mod factor;
 pub mod gauss;
+pub mod lanes;
 pub mod newton;
 pub mod norms;
 pub mod pattern;

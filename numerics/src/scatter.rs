@@ -57,6 +57,16 @@ impl Scatter {
     ///
     /// If `local` does not have n * n entries, or `values` not one an entry of the pattern.
     pub fn add_matrix(&self, element: usize, local: &[f64], values: &mut [f64]) {
+        self.add_entries(element, local.iter().copied(), values);
+    }
+
+    /// Like [`add_matrix`](Self::add_matrix), for a matrix that is not stored entry beside entry.
+    ///
+    /// # Panics
+    ///
+    /// As there.
+    #[inline]
+    pub fn add_entries(&self, element: usize, local: impl ExactSizeIterator<Item = f64>, values: &mut [f64]) {
         assert_eq!(local.len(), self.entries_per_element, "element matrix has the wrong length");
         assert_eq!(values.len(), self.nonzeros, "values have the wrong length");
         let start = element * self.entries_per_element;

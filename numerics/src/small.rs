@@ -1,4 +1,12 @@
 //! Algebra of 1x1, 2x2 and 3x3 matrices as plain arrays, rows first: `a[i][j]`.
+//!
+//! What kernels on [`lanes`](crate::lanes) need is written for any [`Real`].
+#![allow(
+    clippy::inline_always,
+    reason = "vector code has to be part of the entry point of its instruction set"
+)]
+
+use crate::lanes::{self, Real};
 
 /// det(a) for D = 1, 2 or 3.
 ///
@@ -11,18 +19,21 @@
 /// # Panics
 ///
 /// If D is not 1, 2 or 3.
-#[inline]
+#[inline(always)]
 #[must_use]
-pub fn determinant<const D: usize>(a: &[[f64; D]; D]) -> f64 {
+pub fn determinant<const D: usize, R: Real>(a: &[[R; D]; D]) -> R {
     match D {
         1 => a[0][0],
         2 => a[0][0] * a[1][1] - a[0][1] * a[1][0],
-        3 => (0..D).map(|j| a[0][j] * cofactor(a, 0, j)).sum(),
+        3 => lanes::sum::<D, R>(
+            #[inline(always)]
+            |j| a[0][j] * cofactor(a, 0, j),
+        ),
         _ => panic!("determinant of a {D}x{D} matrix"),
     }
 }
 
-/// The inverse of `a` and its determinant, or `None` where the determinant is zero or not finite.
+/// The inverse of `a` and its determinant, or `None` where the determinant is zero or not finite, in any lane.
 ///
 /// ```
 /// use partita_numerics::small::inverse;
@@ -35,14 +46,14 @@ pub fn determinant<const D: usize>(a: &[[f64; D]; D]) -> f64 {
 /// # Panics
 ///
 /// If D is not 1, 2 or 3.
-#[inline]
+#[inline(always)]
 #[must_use]
-pub fn inverse<const D: usize>(a: &[[f64; D]; D]) -> Option<([[f64; D]; D], f64)> {
+pub fn inverse<const D: usize, R: Real>(a: &[[R; D]; D]) -> Option<([[R; D]; D], R)> {
     let determinant = determinant(a);
-    if determinant == 0.0 || !determinant.is_finite() {
+    if determinant.lanes().iter().any(|determinant| *determinant == 0.0 || !determinant.is_finite()) {
         return None;
     }
-    let mut inverse = [[0.0; D]; D];
+    let mut inverse = *a;
     for i in 0..D {
         for j in 0..D {
             inverse[j][i] = cofactor(a, i, j) / determinant;
@@ -52,10 +63,10 @@ pub fn inverse<const D: usize>(a: &[[f64; D]; D]) -> Option<([[f64; D]; D], f64)
 }
 
 /// (-1)^(i+j) times the determinant of `a` without row i and column j.
-#[inline]
-fn cofactor<const D: usize>(a: &[[f64; D]; D], i: usize, j: usize) -> f64 {
+#[inline(always)]
+fn cofactor<const D: usize, R: Real>(a: &[[R; D]; D], i: usize, j: usize) -> R {
     match D {
-        1 => 1.0,
+        1 => a[0][0].like(1.0),
         2 if i == j => a[1 - i][1 - j],
         2 => -a[1 - i][1 - j],
         // Cyclic indices carry the sign.
@@ -126,10 +137,13 @@ pub fn transpose_apply<const M: usize, const N: usize>(a: &[[f64; N]; M], x: &[f
 }
 
 /// The scalar product of two vectors.
-#[inline]
+#[inline(always)]
 #[must_use]
-pub fn dot<const D: usize>(x: &[f64; D], y: &[f64; D]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
+pub fn dot<const D: usize, R: Real>(x: &[R; D], y: &[R; D]) -> R {
+    lanes::sum::<D, R>(
+        #[inline(always)]
+        |i| x[i] * y[i],
+    )
 }
 
 /// The unit matrix.
@@ -140,10 +154,13 @@ pub fn identity<const D: usize>() -> [[f64; D]; D] {
 }
 
 /// The sum of the diagonal.
-#[inline]
+#[inline(always)]
 #[must_use]
-pub fn trace<const D: usize>(a: &[[f64; D]; D]) -> f64 {
-    (0..D).map(|i| a[i][i]).sum()
+pub fn trace<const D: usize, R: Real>(a: &[[R; D]; D]) -> R {
+    lanes::sum::<D, R>(
+        #[inline(always)]
+        |i| a[i][i],
+    )
 }
 
 #[cfg(test)]

@@ -1,45 +1,77 @@
 //! One element at one iterate: what residual and tangent share, and the residual.
+//!
+//! All is written for any [`Real`]: one element, or one a lane.
+#![allow(
+    clippy::inline_always,
+    reason = "vector code has to be part of the entry point of its instruction set"
+)]
 
+use partita_numerics::lanes::{self, Real};
 use partita_numerics::small::{dot, inverse, trace};
 
-use super::terms::{Term, Terms};
+use super::terms::{TERMS, Term, Terms};
 use crate::settings::Tangent;
 use crate::stabilization::{Stabilization, metric};
 
 /// What all elements of a step share.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Flow {
+pub struct Flow<R = f64> {
     /// rho `[kg/m^3]`.
-    pub density: f64,
+    pub density: R,
     /// mu `[Pa s]`.
-    pub viscosity: f64,
+    pub viscosity: R,
     /// `C_I` of `tau_M`.
-    pub inverse_constant: f64,
+    pub inverse_constant: R,
     /// Factor of `tau_C`.
-    pub grad_div: f64,
+    pub grad_div: R,
     /// `c_0` of the time derivative `D_t u = c_0 u + history` `[1/s]`; zero for a steady flow.
-    pub rate: f64,
+    pub rate: R,
     /// `4/dt^2` of `tau_M` `[1/s^2]`; zero for a steady flow.
-    pub four_over_dt_squared: f64,
+    pub four_over_dt_squared: R,
     /// Which derivative the tangent is.
     pub tangent: Tangent,
 }
 
+impl Flow {
+    /// The same in as many lanes as `zero` has.
+    #[inline(always)]
+    #[must_use]
+    pub fn on_lanes_of<R: Real>(&self, zero: R) -> Flow<R> {
+        Flow {
+            density: zero.like(self.density),
+            viscosity: zero.like(self.viscosity),
+            inverse_constant: zero.like(self.inverse_constant),
+            grad_div: zero.like(self.grad_div),
+            rate: zero.like(self.rate),
+            four_over_dt_squared: zero.like(self.four_over_dt_squared),
+            tangent: self.tangent,
+        }
+    }
+}
+
+impl<R: Real> Flow<R> {
+    /// Zero in every lane.
+    #[inline(always)]
+    pub(crate) fn zero(&self) -> R {
+        self.density.like(0.0)
+    }
+}
+
 /// Nodal values of one element.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fields<const D: usize, const N: usize> {
+pub struct Fields<const D: usize, const N: usize, R = f64> {
     /// Where the nodes are now `[m]`.
-    pub points: [[f64; D]; N],
+    pub points: [[R; D]; N],
     /// u `[m/s]`.
-    pub velocity: [[f64; D]; N],
+    pub velocity: [[R; D]; N],
     /// p `[Pa]`.
-    pub pressure: [f64; N],
+    pub pressure: [R; N],
     /// c = u - w `[m/s]`.
-    pub convective: [[f64; D]; N],
+    pub convective: [[R; D]; N],
     /// `c_1 u^n + c_2 u^{n-1}` `[m/s^2]`.
-    pub history: [[f64; D]; N],
+    pub history: [[R; D]; N],
     /// b `[m/s^2]`.
-    pub body_force: [[f64; D]; N],
+    pub body_force: [[R; D]; N],
 }
 
 /// Shape-function gradients `[1/m]` and measure `[m^D]` of a simplex.
@@ -49,12 +81,18 @@ pub struct Fields<const D: usize, const N: usize> {
 /// # Panics
 ///
 /// If the simplex is flat; a solver looks at the measures when it moves the mesh.
-#[inline]
+#[inline(always)]
 #[must_use]
-pub fn shape<const D: usize, const N: usize>(points: &[[f64; D]; N]) -> ([[f64; D]; N], f64) {
-    let edges = std::array::from_fn(|a| std::array::from_fn(|i| points[a + 1][i] - points[0][i]));
-    let (inverse, determinant) = inverse::<D>(&edges).expect("an element that is not flat");
-    let mut gradients = [[0.0; D]; N];
+pub fn shape<const D: usize, const N: usize, R: Real>(points: &[[R; D]; N]) -> ([[R; D]; N], R) {
+    let zero = points[0][0].like(0.0);
+    let mut edges = [[zero; D]; D];
+    for a in 0..D {
+        for i in 0..D {
+            edges[a][i] = points[a + 1][i] - points[0][i];
+        }
+    }
+    let (inverse, determinant) = inverse(&edges).expect("an element that is not flat");
+    let mut gradients = [[zero; D]; N];
     for a in 0..D {
         for i in 0..D {
             gradients[a + 1][i] = inverse[i][a];
@@ -66,46 +104,47 @@ pub fn shape<const D: usize, const N: usize>(points: &[[f64; D]; N]) -> ([[f64; 
 
 /// One element at one iterate.
 #[derive(Debug, Clone, Copy)]
-pub struct Element<const D: usize, const N: usize> {
-    pub(super) flow: Flow,
-    pub(super) fields: Fields<D, N>,
+pub struct Element<const D: usize, const N: usize, R = f64> {
+    pub(super) flow: Flow<R>,
+    pub(super) fields: Fields<D, N, R>,
     /// `grad N_a`.
-    pub(super) gradients: [[f64; D]; N],
+    pub(super) gradients: [[R; D]; N],
     /// V.
-    pub(super) measure: f64,
+    pub(super) measure: R,
     /// V / (N (N + 1)): the factor of the integral of a product.
-    pub(super) product: f64,
+    pub(super) product: R,
     /// `L_ij = du_i/dx_j`.
-    pub(super) velocity_gradient: [[f64; D]; D],
+    pub(super) velocity_gradient: [[R; D]; D],
     /// div u.
-    pub(super) divergence: f64,
+    pub(super) divergence: R,
     /// grad p.
-    pub(super) pressure_gradient: [f64; D],
+    pub(super) pressure_gradient: [R; D],
     /// `D_t u` at the nodes.
-    pub(super) acceleration: [[f64; D]; N],
+    pub(super) acceleration: [[R; D]; N],
     /// L c at the nodes.
-    pub(super) convection: [[f64; D]; N],
+    pub(super) convection: [[R; D]; N],
     /// `r_M` at the nodes.
-    pub(super) strong_residual: [[f64; D]; N],
+    pub(super) strong_residual: [[R; D]; N],
     /// Sums over the nodes of c and of `r_M`.
-    pub(super) convective_sum: [f64; D],
-    pub(super) strong_sum: [f64; D],
+    pub(super) convective_sum: [R; D],
+    pub(super) strong_sum: [R; D],
     /// tau.
-    pub(super) tau: Stabilization<D>,
+    pub(super) tau: Stabilization<D, R>,
     /// sqrt(tr G / 2), about 1/h.
-    steepness: f64,
+    steepness: R,
 }
 
-impl<const D: usize, const N: usize> Element<D, N> {
+impl<const D: usize, const N: usize, R: Real> Element<D, N, R> {
     /// Geometry, gradients, strong residual and tau from nodal values.
-    #[inline]
+    #[inline(always)]
     #[must_use]
-    pub fn new(fields: &Fields<D, N>, flow: &Flow) -> Self {
+    pub fn new(fields: &Fields<D, N, R>, flow: &Flow<R>) -> Self {
+        let zero = flow.zero();
         let (gradients, measure) = shape(&fields.points);
         let g = metric(&gradients);
         let convective_sum = sum(&fields.convective);
-        let mut velocity_gradient = [[0.0; D]; D];
-        let mut pressure_gradient = [0.0; D];
+        let mut velocity_gradient = [[zero; D]; D];
+        let mut pressure_gradient = [zero; D];
         for a in 0..N {
             for j in 0..D {
                 pressure_gradient[j] += fields.pressure[a] * gradients[a][j];
@@ -115,7 +154,7 @@ impl<const D: usize, const N: usize> Element<D, N> {
             }
         }
         let mut acceleration = fields.history;
-        let mut convection = [[0.0; D]; N];
+        let mut convection = [[zero; D]; N];
         let mut strong_residual = [pressure_gradient; N];
         for a in 0..N {
             for i in 0..D {
@@ -125,10 +164,14 @@ impl<const D: usize, const N: usize> Element<D, N> {
                     flow.density * (acceleration[a][i] + convection[a][i] - fields.body_force[a][i]);
             }
         }
+        let centroid = lanes::array(
+            #[inline(always)]
+            |i| convective_sum[i] / N as f64,
+        );
         Self {
             flow: *flow,
             fields: *fields,
-            tau: Stabilization::new(&convective_sum.map(|c| c / N as f64), &g, flow),
+            tau: Stabilization::new(&centroid, &g, flow),
             steepness: (trace(&g) / 2.0).sqrt(),
             gradients,
             measure,
@@ -146,41 +189,52 @@ impl<const D: usize, const N: usize> Element<D, N> {
 
     /// The same with tau held at other values than those of `fields`.
     #[must_use]
-    pub fn with_stabilization(fields: &Fields<D, N>, flow: &Flow, tau: Stabilization<D>) -> Self {
+    pub fn with_stabilization(fields: &Fields<D, N, R>, flow: &Flow<R>, tau: Stabilization<D, R>) -> Self {
         Self { tau, ..Self::new(fields, flow) }
     }
 
     /// V `[m^D]`.
     #[must_use]
-    pub fn measure(&self) -> f64 {
+    pub fn measure(&self) -> R {
         self.measure
     }
 
     /// `tau_M` and `tau_C`.
     #[must_use]
-    pub fn stabilization(&self) -> &Stabilization<D> {
+    pub fn stabilization(&self) -> &Stabilization<D, R> {
         &self.tau
     }
 
     /// The residual by terms, as in the equations of [`kernel`](crate::kernel).
-    #[inline]
+    #[inline(always)]
     #[must_use]
-    pub fn residual(&self) -> Terms<D, N> {
-        let mut terms = Terms::ZERO;
+    pub fn residual(&self) -> Terms<D, N, R> {
+        let zero = self.flow.zero();
+        let mut terms = Terms {
+            momentum: [[[zero; TERMS]; D]; N],
+            continuity: [[zero; TERMS]; N],
+            momentum_size: zero,
+            continuity_size: zero,
+        };
         self.momentum_rows(&mut terms);
         self.continuity_rows(&mut terms);
         self.measure_terms(&mut terms);
         terms
     }
 
-    #[inline]
-    fn momentum_rows(&self, terms: &mut Terms<D, N>) {
-        let Self { flow, fields, tau, measure, .. } = self;
+    #[inline(always)]
+    fn momentum_rows(&self, terms: &mut Terms<D, N, R>) {
+        let Self { flow, fields, tau, measure, product, .. } = *self;
         let (accelerations, convections) = (sum(&self.acceleration), sum(&self.convection));
         let body_forces = sum(&fields.body_force);
-        let mass = flow.density * self.product;
+        let mass = flow.density * product;
         let viscous = flow.viscosity * measure;
-        let pressure = measure * fields.pressure.iter().sum::<f64>() / N as f64;
+        let pressure = measure
+            * lanes::sum::<N, R>(
+                #[inline(always)]
+                |a| fields.pressure[a],
+            )
+            / N as f64;
         let incompressible = tau.continuity * measure * self.divergence;
         let strain = symmetric(&self.velocity_gradient);
         let streamline = self.streamline_stress();
@@ -198,8 +252,8 @@ impl<const D: usize, const N: usize> Element<D, N> {
         }
     }
 
-    #[inline]
-    fn continuity_rows(&self, terms: &mut Terms<D, N>) {
+    #[inline(always)]
+    fn continuity_rows(&self, terms: &mut Terms<D, N, R>) {
         let mean = self.measure / N as f64;
         let smoothing = self.tau.momentum * mean;
         let pressure = smoothing * N as f64 / self.flow.density;
@@ -215,13 +269,15 @@ impl<const D: usize, const N: usize> Element<D, N> {
     }
 
     /// `(r_M, c)` as a tensor: the integral of `r_i c_j`.
-    #[inline]
-    pub(super) fn streamline_stress(&self) -> [[f64; D]; D] {
-        let mut stress = [[0.0; D]; D];
+    #[inline(always)]
+    pub(super) fn streamline_stress(&self) -> [[R; D]; D] {
+        let mut stress = [[self.flow.zero(); D]; D];
         for i in 0..D {
             for j in 0..D {
-                let pointwise: f64 =
-                    (0..N).map(|a| self.strong_residual[a][i] * self.fields.convective[a][j]).sum();
+                let pointwise = lanes::sum::<N, R>(
+                    #[inline(always)]
+                    |a| self.strong_residual[a][i] * self.fields.convective[a][j],
+                );
                 stress[i][j] = self.product * (pointwise + self.strong_sum[i] * self.convective_sum[j]);
             }
         }
@@ -229,16 +285,16 @@ impl<const D: usize, const N: usize> Element<D, N> {
     }
 
     /// Sizes of the terms with every factor at its largest absolute value: no cancellation.
-    #[inline]
-    fn measure_terms(&self, terms: &mut Terms<D, N>) {
-        let Self { flow, fields, steepness, .. } = self;
+    #[inline(always)]
+    fn measure_terms(&self, terms: &mut Terms<D, N, R>) {
+        let Self { flow, fields, steepness, .. } = *self;
         let velocity = largest(&fields.velocity);
         let acceleration = flow.rate * velocity + largest(&fields.history);
         let forces = flow.density
             * (acceleration
                 + largest(&fields.convective) * steepness * velocity
                 + largest(&fields.body_force))
-            + steepness * fields.pressure.iter().fold(0.0, |size: f64, p| size.max(p.abs()));
+            + steepness * largest(&[fields.pressure]);
         let stresses = (flow.viscosity + self.tau.continuity) * velocity * steepness * steepness;
         terms.momentum_size = self.measure * (forces + stresses);
         terms.continuity_size =
@@ -247,23 +303,33 @@ impl<const D: usize, const N: usize> Element<D, N> {
 }
 
 /// L + L^T.
-#[inline]
-fn symmetric<const D: usize>(l: &[[f64; D]; D]) -> [[f64; D]; D] {
-    std::array::from_fn(|i| std::array::from_fn(|j| l[i][j] + l[j][i]))
-}
-
-#[inline]
-pub(super) fn sum<const D: usize, const N: usize>(nodal: &[[f64; D]; N]) -> [f64; D] {
-    let mut sum = [0.0; D];
-    for value in nodal {
-        for i in 0..D {
-            sum[i] += value[i];
+#[inline(always)]
+fn symmetric<const D: usize, R: Real>(l: &[[R; D]; D]) -> [[R; D]; D] {
+    let mut sum = *l;
+    for i in 0..D {
+        for j in 0..D {
+            sum[i][j] = l[i][j] + l[j][i];
         }
     }
     sum
 }
 
-#[inline]
-fn largest<const D: usize, const N: usize>(nodal: &[[f64; D]; N]) -> f64 {
-    nodal.as_flattened().iter().fold(0.0, |largest, x| largest.max(x.abs()))
+#[inline(always)]
+pub(super) fn sum<const D: usize, const N: usize, R: Real>(nodal: &[[R; D]; N]) -> [R; D] {
+    let mut sum = [nodal[0][0].like(0.0); D];
+    for a in 0..N {
+        for i in 0..D {
+            sum[i] += nodal[a][i];
+        }
+    }
+    sum
+}
+
+#[inline(always)]
+fn largest<const D: usize, const N: usize, R: Real>(nodal: &[[R; D]; N]) -> R {
+    let mut largest = nodal[0][0].like(0.0);
+    for value in nodal.as_flattened() {
+        largest = largest.max(value.abs());
+    }
+    largest
 }

@@ -30,15 +30,15 @@ pub const TERMS: usize = 8;
 
 /// Contributions of one element to the residual, by node and term. Their sum is the residual.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Terms<const D: usize, const N: usize> {
+pub struct Terms<const D: usize, const N: usize, R = f64> {
     /// `momentum[a][i][term]` `[N/m in 2D, N in 3D]`.
-    pub momentum: [[[f64; TERMS]; D]; N],
+    pub momentum: [[[R; TERMS]; D]; N],
     /// `continuity[a][term]` `[m^2/s in 2D, m^3/s in 3D]`.
-    pub continuity: [[f64; TERMS]; N],
+    pub continuity: [[R; TERMS]; N],
     /// Size of the momentum terms before anything cancels: what their round-off is relative to.
-    pub momentum_size: f64,
+    pub momentum_size: R,
     /// The same for continuity.
-    pub continuity_size: f64,
+    pub continuity_size: R,
 }
 
 impl<const D: usize, const N: usize> Terms<D, N> {

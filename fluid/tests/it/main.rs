@@ -2,6 +2,7 @@
 
 #![allow(clippy::float_cmp, reason = "prescribed and restored values arrive to the bit")]
 
+mod allocation;
 mod balance;
 mod common;
 mod conditions;

@@ -126,7 +126,10 @@ where
         output: &mut [f64],
     ) -> Result<Effort, ParticipantError> {
         let before = self.field.phases();
-        self.field.impose(input).map_err(|error| field_error::<F>(&error))?;
+        // Without data the step is as `begin_step` left it.
+        if !self.input.is_empty() {
+            self.field.impose(input).map_err(|error| field_error::<F>(&error))?;
+        }
         let (limit, settles) = loop_limit(limit);
         let settings = *self.field.newton();
         let last_output = &mut self.last_output;
@@ -141,8 +144,10 @@ where
         if report.converged {
             self.field.verify().map_err(|error| field_error::<F>(&error))?;
         }
-        self.field.output(output);
-        self.last_output.copy_from_slice(output);
+        if !self.output.is_empty() {
+            self.field.output(output);
+            self.last_output.copy_from_slice(output);
+        }
         let changes = self.changes();
         self.entry.copy_from_slice(self.field.values());
         let mut effort = effort(&report, settings.bound, changes, self.field.phases() - before);

@@ -23,6 +23,8 @@ pub(crate) enum Command {
     Run(Run),
     /// Read and build a scene, say what it is, and run nothing.
     Check(Check),
+    /// Say which effects of a scene run, which do not, and why; build and run nothing.
+    Plan(Plan),
     /// Take up a run at its last checkpoint.
     Resume(Resume),
     /// Run a scene at many settings and show what accuracy costs.
@@ -47,6 +49,12 @@ pub(crate) struct Run {
 
 #[derive(Debug, Args)]
 pub(crate) struct Check {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Plan {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
 }

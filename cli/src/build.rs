@@ -48,7 +48,8 @@ pub enum BuildError {
 /// When the parts of the scene do not fit together.
 pub fn run(Resolved { scene, shapes, .. }: &Resolved) -> Result<Run, BuildError> {
     let fluid = scene.fluid.as_ref().zip(shapes.fluid.clone());
-    let fluid = fluid.map(|(scene, mesh)| fluid::solver(scene, mesh)).transpose()?;
+    let moves = scene.moves_the_interface();
+    let fluid = fluid.map(|(scene, mesh)| fluid::solver(scene, mesh, moves)).transpose()?;
     let structure = scene.structure.as_ref().zip(shapes.structure.clone());
     let structure = structure.map(|(scene, space)| structure::solver(scene, space)).transpose()?;
     let (settings, transfers) = match (&scene.coupling, &fluid, &structure) {
@@ -56,19 +57,20 @@ pub fn run(Resolved { scene, shapes, .. }: &Resolved) -> Result<Run, BuildError>
             let tolerance = coupling.projection_tolerance.get();
             (coupling::settings(coupling), vec![interface::transfer(fluid, structure, tolerance)?])
         }
-        _ => (coupling::one_field(), Vec::<Box<dyn Transfer>>::new()),
+        _ => (coupling::one_call(), Vec::<Box<dyn Transfer>>::new()),
     };
     let coupled = !transfers.is_empty();
     let blocks = |quantity, points| {
         if coupled { vec![Block::new(INTERFACE, quantity, COMPONENTS, points)] } else { Vec::new() }
     };
+    let displacements = |points| if moves { blocks(Quantity::Displacement, points) } else { Vec::new() };
     let first = fluid.map(|fluid| {
         let points = fluid.interface_nodes().len();
-        Adapter::new(fluid, blocks(Quantity::Displacement, points), blocks(Quantity::Force, points))
+        Adapter::new(fluid, displacements(points), blocks(Quantity::Force, points))
     });
     let second = structure.map(|structure| {
         let points = structure.interface_points().len();
-        Adapter::new(structure, blocks(Quantity::Force, points), blocks(Quantity::Displacement, points))
+        Adapter::new(structure, blocks(Quantity::Force, points), displacements(points))
     });
     Ok(March::new(Slot::new(first), Slot::new(second), transfers, &settings, 0.0)?)
 }

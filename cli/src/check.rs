@@ -9,7 +9,7 @@ use partita_structure::{Space, StructureSolver};
 
 use crate::build::{self, BuildError};
 use crate::memory;
-use crate::scene::schema::{Condition, Coupling, Fluid, Part, Structure, plain};
+use crate::scene::schema::{Condition, Coupling, Direction, Fluid, Part, Structure, plain};
 use crate::scene::{Resolved, words};
 
 /// Builds the scene and describes it: title, meshes with their boundary groups, splines, interface, choices. The last
@@ -98,7 +98,11 @@ impl Page {
     }
 
     fn coupling(&mut self, coupling: &Coupling) {
-        self.line("coupling", words(&coupling.acceleration));
+        let Some(acceleration) = coupling.acceleration.filter(|_| coupling.direction == Direction::TwoWay)
+        else {
+            return self.line("coupling", "one way: the fluid's load on the structure, one call each a step");
+        };
+        self.line("coupling", words(&acceleration));
         self.line("", format!("predictor {}", words(&coupling.predictor)));
         self.line(
             "",

@@ -9,6 +9,7 @@ pub mod expression;
 pub mod memory;
 mod nearest;
 pub mod output;
+pub mod plan;
 mod probe;
 pub mod progress;
 pub mod scene;

@@ -12,9 +12,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Parser;
 use partita::output::{Clock, Ending, Summary};
 use partita::session::{Options, RunError, Session};
-use partita::{build, check, output, scene, stability, study};
+use partita::{build, check, output, plan, scene, stability, study};
 
-use args::{Arguments, Check, Command, Manner, Resume, Run, Stability, Study};
+use args::{Arguments, Check, Command, Manner, Plan, Resume, Run, Stability, Study};
 use failure::Failure;
 
 /// Set when the user asks to stop; the run ends after its step.
@@ -28,6 +28,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Run(arguments) => run(&arguments, clock),
         Command::Check(arguments) => check(&arguments),
+        Command::Plan(arguments) => plan(&arguments),
         Command::Resume(arguments) => resume(&arguments, clock),
         Command::Study(arguments) => study(&arguments),
         Command::Stability(arguments) => stability(&arguments),
@@ -50,6 +51,12 @@ fn run(arguments: &Run, clock: Clock) -> Result<ExitCode, Failure> {
 fn check(arguments: &Check) -> Result<ExitCode, Failure> {
     let resolved = scene::load(&arguments.scene.path, &arguments.scene.overrides)?;
     print(&check::describe(&resolved)?)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn plan(arguments: &Plan) -> Result<ExitCode, Failure> {
+    let resolved = scene::load(&arguments.scene.path, &arguments.scene.overrides)?;
+    print(&format!("{}\n\n{}", resolved.scene.title, plan::Plan::of(&resolved.scene).table().to_plain()))?;
     Ok(ExitCode::SUCCESS)
 }
 

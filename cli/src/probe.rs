@@ -152,9 +152,10 @@ impl FluidPlace {
             }
             Self::Energy => vec![fluid.kinetic_energy()],
             Self::VolumeDefect => vec![fluid.volume_defect()],
-            Self::MeshQuality => fluid
-                .mesh_quality()
-                .map_or_else(|| vec![1.0; 2], |quality| vec![quality.smallest_ratio, quality.smallest_quality]),
+            Self::MeshQuality => fluid.mesh_quality().map_or_else(
+                || vec![1.0; 2],
+                |quality| vec![quality.smallest_ratio, quality.smallest_quality],
+            ),
             Self::InterfaceWork => vec![fluid.interface_work()],
         }
     }

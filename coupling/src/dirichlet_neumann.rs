@@ -61,8 +61,11 @@ impl Interface {
         way.zip(&self.transferred_load).map(|(way, load)| way * load).sum()
     }
 
-    /// `|f . (H x) - (H^T f) . x| / (|f| |H x|)`, 0/0 = 0.
+    /// `|f . (H x) - (H^T f) . x| / (|f| |H x|)`, 0/0 = 0; zero where the coupling is one way.
     fn work_defect(&self) -> f64 {
+        if self.x.is_empty() {
+            return 0.0;
+        }
         let defect = dot(&self.load, &self.displacement) - dot(&self.transferred_load, &self.x);
         ratio(defect.abs(), norm(&self.load) * norm(&self.displacement))
     }

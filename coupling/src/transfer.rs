@@ -8,7 +8,7 @@ use sprs::{CsMat, TriMat};
 
 use crate::error::SetupError;
 use crate::participant::Participant;
-use crate::port::{Block, Quantity, total_len};
+use crate::port::{Block, Quantity};
 
 /// A linear map between the points of two blocks, and its transpose.
 pub trait Transfer: Send {
@@ -157,10 +157,15 @@ impl Transfer for MatrixTransfer {
 /// All transfers of a coupled problem, one a block, in the order of the blocks.
 pub struct Transfers {
     parts: Vec<Box<dyn Transfer>>,
+    /// Loads go to the second participant, displacements do not come back.
+    one_way: bool,
 }
 
 impl Transfers {
     /// Checks that the blocks of two participants and the transfers fit, and keeps the transfers.
+    ///
+    /// Where the first participant takes nothing and the second hands nothing out, the coupling is one way: loads alone
+    /// are transferred.
     ///
     /// # Errors
     /// When the numbers of blocks, the interfaces, the quantities or the lengths disagree.
@@ -170,6 +175,14 @@ impl Transfers {
         parts: Vec<Box<dyn Transfer>>,
     ) -> Result<Self, SetupError> {
         let lists = [first.input(), first.output(), second.input(), second.output()];
+        let [first_in, first_out, second_in, second_out] = lists.map(<[Block]>::len);
+        if [first_in, second_out] == [0; 2] && [first_out, second_in] == [parts.len(); 2] && !parts.is_empty()
+        {
+            for (index, transfer) in parts.iter().enumerate() {
+                check_loads([&lists[1][index], &lists[2][index]], transfer.as_ref())?;
+            }
+            return Ok(Self { parts, one_way: true });
+        }
         if lists.iter().any(|blocks| blocks.len() != parts.len()) {
             return Err(SetupError::BlockCount {
                 first: first.name().to_owned(),
@@ -184,11 +197,14 @@ impl Transfers {
         for (index, transfer) in parts.iter().enumerate() {
             check_blocks(lists.map(|blocks| &blocks[index]), transfer.as_ref())?;
         }
-        Ok(Self { parts })
+        Ok(Self { parts, one_way: false })
     }
 
-    /// `to = H from` for all blocks.
+    /// `to = H from` for all blocks; nothing where the coupling is one way.
     pub fn apply(&self, from: &[f64], to: &mut [f64]) {
+        if self.one_way {
+            return;
+        }
         let (mut from_rest, mut to_rest) = (from, to);
         for part in &self.parts {
             let (from_block, from_tail) = from_rest.split_at(part.columns());
@@ -207,6 +223,33 @@ impl Transfers {
             part.apply_transpose(from_block, to_block);
             (from_rest, to_rest) = (from_tail, to_tail);
         }
+    }
+}
+
+/// The two blocks that meet at a transfer of loads alone: force out of the first participant, into the second.
+fn check_loads([first_out, second_in]: [&Block; 2], transfer: &dyn Transfer) -> Result<(), SetupError> {
+    let fault =
+        |problem: String| Err(SetupError::BlockMismatch { interface: first_out.interface.clone(), problem });
+    if second_in.interface != first_out.interface {
+        return fault(format!("meets interface {}", second_in.interface));
+    }
+    if first_out.quantity != second_in.quantity || first_out.quantity == Quantity::Displacement {
+        return fault("the first participant must hand loads of one kind to the second".to_owned());
+    }
+    let lengths = [
+        (first_out, transfer.rows(), "the output of the first participant"),
+        (second_in, transfer.columns(), "the input of the second participant"),
+    ];
+    check_lengths(&lengths).or_else(fault)
+}
+
+/// What a block has to say other than its transfer.
+fn check_lengths(lengths: &[(&Block, usize, &str)]) -> Result<(), String> {
+    match lengths.iter().find(|(block, expected, _)| block.len() != *expected) {
+        Some((block, expected, what)) => {
+            Err(format!("{what} has {} values, the transfer {expected}", block.len()))
+        }
+        None => Ok(()),
     }
 }
 
@@ -231,13 +274,5 @@ fn check_blocks(blocks: [&Block; 4], transfer: &dyn Transfer) -> Result<(), Setu
         (second_in, transfer.columns(), "the input of the second participant"),
         (second_out, transfer.columns(), "the output of the second participant"),
     ];
-    for (block, expected, what) in lengths {
-        if block.len() != expected {
-            return fault(format!(
-                "{what} has {} values, the transfer {expected}",
-                total_len(std::slice::from_ref(block))
-            ));
-        }
-    }
-    Ok(())
+    check_lengths(&lengths).or_else(fault)
 }

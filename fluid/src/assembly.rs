@@ -29,6 +29,8 @@ pub(crate) struct Iterate<'a, const D: usize> {
     pub(crate) body_force: &'a [f64],
     pub(crate) natural: &'a [NaturalFacet<D>],
     pub(crate) frames: &'a Frames<D>,
+    /// Whether u convects; else the mesh alone moves past the fluid.
+    pub(crate) convects: bool,
 }
 
 /// Patterns, maps and work vectors; they live as long as the solver.
@@ -270,7 +272,8 @@ impl<const D: usize> Iterate<'_, D> {
                 fields.points[a][i] = zero.gather(|lane| self.points.as_flattened()[of_node(lane, D, i)]);
                 fields.velocity[a][i] = zero.gather(|lane| self.values[of_node(lane, D + 1, i)]);
                 let mesh_velocity = zero.gather(|lane| self.mesh_velocity[of_node(lane, D, i)]);
-                fields.convective[a][i] = fields.velocity[a][i] - mesh_velocity;
+                let carried = if self.convects { fields.velocity[a][i] } else { zero };
+                fields.convective[a][i] = carried - mesh_velocity;
                 fields.history[a][i] = zero.gather(|lane| self.history[of_node(lane, D, i)]);
                 fields.body_force[a][i] = zero.gather(|lane| self.body_force[of_node(lane, D, i)]);
             }

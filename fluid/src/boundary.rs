@@ -30,8 +30,10 @@ enum Hold {
 pub(crate) struct Boundaries<const D: usize> {
     /// Which dofs `node * (D + 1) + c` are prescribed; on slip nodes c counts in the turned frame.
     pub(crate) prescribed: Vec<bool>,
-    /// Nodes of interface groups, sorted.
+    /// Nodes of interface groups, rigid ones too, sorted.
     pub(crate) interface: Vec<usize>,
+    /// Those of them that another field moves.
+    pub(crate) moved_interface: Vec<usize>,
     /// Nodes of moving walls, and the condition that moves them.
     pub(crate) wall_motion: Vec<(usize, usize)>,
     pub(crate) natural: Vec<NaturalFacet<D>>,
@@ -54,6 +56,7 @@ impl<const D: usize> Boundaries<D> {
         let mut boundaries = Self {
             prescribed: vec![false; mesh.points().len() * (D + 1)],
             interface: Vec::new(),
+            moved_interface: Vec::new(),
             wall_motion: Vec::new(),
             natural: natural::facets(mesh, model),
             slip: Vec::new(),
@@ -82,6 +85,11 @@ impl<const D: usize> Boundaries<D> {
         let (group, condition) = &model.boundary[owner];
         let hold = match condition {
             BoundaryCondition::Interface => {
+                self.interface.push(node);
+                self.moved_interface.push(node);
+                Hold::Wall
+            }
+            BoundaryCondition::RigidInterface => {
                 self.interface.push(node);
                 Hold::Wall
             }

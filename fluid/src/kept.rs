@@ -6,15 +6,21 @@ use crate::error::FluidError;
 use crate::solver::FluidSolver;
 
 impl<const D: usize> FluidSolver<D> {
+    /// Whether the equations are linear: their tangent then depends on the mesh and the size of the step alone.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        !self.settings.convection
+    }
+
     /// What the last factor is worth now.
     pub(crate) fn worth_of_factor(&self) -> KeptFactor {
-        self.factor_log.worth(&self.coefficients(), false)
+        self.factor_log.worth(&self.coefficients(), self.is_linear())
     }
 
     /// Whether the factor of a step may serve in the next one.
     #[must_use]
     pub fn keeps_factor(&self) -> bool {
-        self.settings.newton.reuse_factor.is_some()
+        self.settings.newton.reuse_factor.is_some() || (self.is_linear() && self.mesh_is_fixed)
     }
 
     /// The tangent whose factor the next step may use: what a checkpoint holds beside [`state`](Self::state).

@@ -71,6 +71,8 @@ pub enum BoundaryCondition<const D: usize> {
     /// A boundary whose displacement another field gives, see
     /// [`FluidSolver::impose`](crate::FluidSolver::impose); u = w.
     Interface,
+    /// A wall that stands still whose forces another field is given, so that nothing comes back from there; u = 0.
+    RigidInterface,
 }
 
 /// Facets of slip walls whose normals differ by more than this angle `[rad]` form a corner: 40 degrees, between
@@ -81,7 +83,7 @@ impl<const D: usize> BoundaryCondition<D> {
     /// The order of precedence at a node between groups.
     pub(crate) fn rank(&self) -> u8 {
         match self {
-            Self::Interface => 5,
+            Self::Interface | Self::RigidInterface => 5,
             Self::WallMotion(_) => 4,
             Self::NoSlip => 3,
             Self::Velocity(_) => 2,
@@ -112,6 +114,7 @@ impl<const D: usize> fmt::Debug for BoundaryCondition<D> {
             Self::DoNothing { backflow } => write!(f, "DoNothing {{ backflow: {backflow} }}"),
             Self::StressFree { backflow } => write!(f, "StressFree {{ backflow: {backflow} }}"),
             Self::Interface => f.write_str("Interface"),
+            Self::RigidInterface => f.write_str("RigidInterface"),
         }
     }
 }

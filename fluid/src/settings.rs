@@ -48,6 +48,9 @@ pub struct FluidSettings {
     pub time: TimeScheme,
     /// The derivative Newton's method uses.
     pub tangent: Tangent,
+    /// Whether the fluid carries its own momentum with it. Without, `u - w` is replaced by `-w` everywhere, so that the
+    /// equations are linear: those of Stokes on a moving mesh.
+    pub convection: bool,
     /// `C_I` of `tau_M`, see [`INVERSE_CONSTANT`].
     pub inverse_constant: f64,
     /// Factor of `tau_C`; 1 is the formula of [`Stabilization`](crate::stabilization::Stabilization), 0 leaves the term out.
@@ -70,6 +73,7 @@ impl Default for FluidSettings {
         Self {
             time: TimeScheme::Bdf(BdfOrder::One),
             tangent: Tangent::Full,
+            convection: true,
             inverse_constant: INVERSE_CONSTANT,
             grad_div: 1.0,
             newton: newton::Settings::default(),

@@ -11,7 +11,7 @@ use crate::boundary::{self, Boundaries, Frames};
 use crate::error::FluidError;
 use crate::kernel::Flow;
 use crate::model::{BodyForce, FluidModel, InitialState};
-use crate::settings::FluidSettings;
+use crate::settings::{FluidSettings, Tangent};
 use crate::state::FluidState;
 use crate::trial::Trial;
 
@@ -65,6 +65,8 @@ pub struct FluidSolver<const D: usize> {
     pub(crate) assembly: Assembly,
     pub(crate) factor: Factor,
     pub(crate) factor_log: FactorLog,
+    /// Whether the mesh has been where it is from the start.
+    pub(crate) mesh_is_fixed: bool,
     /// The last Newton increment on all dofs.
     pub(crate) increment: Vec<f64>,
     pub(crate) phases: PhaseSeconds,
@@ -118,6 +120,7 @@ impl<const D: usize> FluidSolver<D> {
             committed,
             trial,
             frames,
+            mesh_is_fixed: motion.is_none(),
             motion,
             assembly,
             factor,
@@ -226,7 +229,8 @@ fn initial_flow<const D: usize>(model: &FluidModel<D>, settings: &FluidSettings)
         grad_div: settings.grad_div,
         rate: 0.0,
         four_over_dt_squared: 0.0,
-        tangent: settings.tangent,
+        // Without convection this one is the full derivative: all that depends on u is left out.
+        tangent: if settings.convection { settings.tangent } else { Tangent::Picard },
     }
 }
 

@@ -42,7 +42,7 @@ impl<const D: usize> FluidSolver<D> {
     }
 
     /// Moves the interface: total displacement from the reference mesh `[m]` at the
-    /// [`interface_nodes`](Self::interface_nodes), `point * D + c`. The mesh follows, and with it mesh
+    /// [`interface_nodes`](Self::interface_nodes) that are not rigid, `point * D + c`. The mesh follows, and with it mesh
     /// velocity, prescribed values and loads.
     ///
     /// # Errors
@@ -54,7 +54,7 @@ impl<const D: usize> FluidSolver<D> {
     /// If `displacement` does not have D entries an interface node, or outside a step.
     pub fn impose(&mut self, displacement: &[f64]) -> Result<(), FluidError> {
         let time = self.end_of_step();
-        let nodes = &self.boundaries.interface;
+        let nodes = &self.boundaries.moved_interface;
         assert_eq!(displacement.len(), nodes.len() * D, "an interface displacement has {D} entries a node");
         for (node, given) in nodes.iter().zip(displacement.chunks_exact(D)) {
             self.trial.displacement[node * D..(node + 1) * D].copy_from_slice(given);
@@ -81,6 +81,7 @@ impl<const D: usize> FluidSolver<D> {
             "a displacement has {D} entries a node"
         );
         self.trial.displacement.copy_from_slice(displacement);
+        self.mesh_is_fixed = false;
         self.follow_mesh(time)
     }
 
@@ -143,6 +144,7 @@ impl<const D: usize> FluidSolver<D> {
         self.committed.check_fits(state)?;
         self.committed.clone_from(state);
         self.last_volume_defect = 0.0;
+        self.mesh_is_fixed &= state.displacement.iter().all(|d| *d == 0.0);
         // A state does not hold it.
         self.trial.committed_mesh_velocity.fill(0.0);
         self.rewind();
@@ -177,6 +179,9 @@ impl<const D: usize> FluidSolver<D> {
 
     /// All that depends on where the mesh is.
     fn follow_mesh(&mut self, time: f64) -> Result<(), FluidError> {
+        if !self.mesh_is_fixed {
+            self.factor_log.outdate();
+        }
         self.trial
             .follow(&self.mesh, &self.committed)
             .map_err(|source| FluidError::Motion { time, source })?;
@@ -225,6 +230,7 @@ impl<const D: usize> Problem for FluidSolver<D> {
             body_force: &self.trial.body_force,
             natural: &self.boundaries.natural,
             frames: &self.frames,
+            convects: self.settings.convection,
         };
         let assembly = &mut self.assembly;
         Ok(timed(&mut self.phases.assembly, || assembly.assemble(&iterate, with_tangent)))
@@ -241,6 +247,12 @@ impl<const D: usize> Problem for FluidSolver<D> {
 
     fn kept_factor(&self) -> KeptFactor {
         self.worth_of_factor()
+    }
+
+    fn take_back(&mut self) {
+        for (value, increment) in self.trial.values.iter_mut().zip(&self.increment) {
+            *value -= increment;
+        }
     }
 
     fn drop_factor(&mut self) {

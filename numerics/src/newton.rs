@@ -53,6 +53,10 @@ pub trait Problem {
         self.solve_and_update()
     }
 
+    /// Takes the step of the last [`solve_with_kept_factor`](Self::solve_with_kept_factor) back: the iterate is what it was
+    /// before, at least to round-off.
+    fn take_back(&mut self) {}
+
     /// The kept factor has turned out to be of no use: [`kept_factor`](Self::kept_factor) is now `Missing`.
     fn drop_factor(&mut self) {}
 }
@@ -88,7 +92,7 @@ pub struct Report {
     pub tangents: usize,
     /// Numeric factorizations of the tangent.
     pub factorizations: usize,
-    /// Linear solves.
+    /// Linear solves; those with a kept factor whose step was taken back are no iterations.
     pub solves: usize,
     /// The residual at the first iterate, evaluated in this call.
     pub entry: ResidualNorm,

@@ -55,7 +55,7 @@ pub(crate) struct Assembly<const D: usize> {
     material: Material,
     has_inertia: bool,
     damping: Option<Damping>,
-    /// M on the pattern.
+    /// M on the pattern; empty where nothing needs it.
     mass: Vec<f64>,
 }
 
@@ -76,7 +76,7 @@ impl<const D: usize> Assembly<D> {
         let connectivity = elements.connectivity();
         let pattern = Pattern::new(&dofs, &[&connectivity]);
         let scatter = Scatter::new(&pattern, &dofs, &connectivity);
-        let mut assembly = Self {
+        Self {
             elements,
             connectivity,
             dofs,
@@ -87,10 +87,15 @@ impl<const D: usize> Assembly<D> {
             has_inertia: true,
             damping: None,
             mass: Vec::new(),
-        };
-        assembly.mass = assembly
-            .matrix(|e, local| kernel::add_mass(assembly.elements.element(e), density, &mut local.matrix));
-        assembly
+        }
+    }
+
+    /// The same with the mass matrix, which inertia and damping need.
+    pub(crate) fn with_mass(mut self) -> Self {
+        let density = self.density;
+        self.mass =
+            self.matrix(|e, local| kernel::add_mass(self.elements.element(e), density, &mut local.matrix));
+        self
     }
 
     /// The same without inertia in its forces.
@@ -229,6 +234,9 @@ impl<const D: usize> Assembly<D> {
 
     /// The part of the tangent that does not depend on the displacement.
     fn start_tangent(&self, tangent: &mut Tangent) {
+        if self.mass.is_empty() {
+            tangent.values.fill(0.0);
+        }
         for (entry, m) in tangent.values.iter_mut().zip(&self.mass) {
             *entry = tangent.weights.mass * m;
         }

@@ -35,12 +35,18 @@ impl<const D: usize> Problem for StructureSolver<D> {
         self.worth_of_factor()
     }
 
+    fn take_back(&mut self) {
+        self.trial.displacement.copy_from_slice(&self.work.start);
+        self.update_rates();
+    }
+
     fn drop_factor(&mut self) {
         self.factor_log.forget();
     }
 
     fn solve_with_kept_factor(&mut self) -> Result<(), StructureError> {
-        let Work { residual, increment, .. } = &mut self.work;
+        let Work { residual, increment, start, .. } = &mut self.work;
+        start.copy_from_slice(&self.trial.displacement);
         let dofs = self.assembly.dofs();
         dofs.gather(residual, increment);
         timed(&mut self.phases.solve, || self.factor.solve(increment));
@@ -87,7 +93,6 @@ impl<const D: usize> StructureSolver<D> {
 
     /// d + s delta with the s in (0, 1] at which the work G(s) = delta . R(d + s delta) has fallen enough.
     fn search_along_increment(&mut self, settings: LineSearch) {
-        self.work.start.copy_from_slice(&self.trial.displacement);
         let work_at_start = self.work_along_increment();
         let enough = settings.tolerance * work_at_start.abs();
         // G changes sign between `low` and `high`, once the full step has turned out to overshoot.

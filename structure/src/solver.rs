@@ -78,7 +78,7 @@ pub(crate) struct Work<const D: usize> {
     pub(crate) tangent: Vec<f64>,
     /// Newton increment on the free dofs.
     pub(crate) increment: Vec<f64>,
-    /// Displacement from which a line search starts.
+    /// Displacement before the last Newton increment: where a line search starts, and where a chord goes back to.
     pub(crate) start: Vec<f64>,
     pub(crate) local: Local<D>,
 }
@@ -107,7 +107,11 @@ impl<const D: usize> StructureSolver<D> {
         }
         let parts = [Part { name: "displacement", dofs: dofs.free().to_vec() }];
         let mut assembly = Assembly::new(elements, dofs, model.density, model.material);
-        if scheme == Scheme::QuasiStatic {
+        let has_inertia = scheme != Scheme::QuasiStatic;
+        if has_inertia || settings.rayleigh.is_some() {
+            assembly = assembly.with_mass();
+        }
+        if !has_inertia {
             assembly = assembly.without_inertia();
         }
         if let Some(rayleigh) = settings.rayleigh {

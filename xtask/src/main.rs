@@ -12,6 +12,7 @@ mod benchmark;
 mod beyond;
 mod ci;
 mod csv;
+mod effects;
 mod infer;
 mod options;
 mod performance;
@@ -45,6 +46,8 @@ Tasks:
   performance            time the fluid's parts and whole steps, write docs/data/performance.csv and docs/performance.md
     --largest DOFS       leave out sizes of more unknowns, such as 100000
     --mode MODE          write (default), or check: measure nothing, fail where the page differs from the data
+  effects                run the beam in channel flow with effects switched on one by one, and without each of them
+    --mode MODE          check (default): counts and errors as in docs/data/effects.csv, or write that and docs/effects.md
   infer                  search the values that the paper does not give, as paper/inference.md says; options
                          --mode, --jobs and --fresh as above
   sensitivity            judge the claims on cases with other values, write paper/results/sensitivity.csv
@@ -71,6 +74,7 @@ fn dispatch(arguments: &[&str]) -> Result<(), TaskError> {
         ["reproduce", options @ ..] => reproduce::run(root, &Options::parse("reproduce", options)?),
         ["benchmark", options @ ..] => benchmark::run(root, options),
         ["performance", options @ ..] => performance::run(root, options),
+        ["effects", options @ ..] => effects::run(root, options),
         ["infer", options @ ..] => infer::run(root, &Options::parse("infer", options)?),
         ["sensitivity", options @ ..] => sensitivity::run(root, &Options::parse("sensitivity", options)?),
         ["beyond", options @ ..] => beyond::run(root, &Options::parse("beyond", options)?),

@@ -64,6 +64,15 @@ pub(crate) fn captured(mut command: Command) -> Result<String, TaskError> {
     }
 }
 
+/// Builds the program; it lies beside the profile of this one.
+pub(crate) fn release_binary(root: &Path) -> Result<PathBuf, TaskError> {
+    run(cargo(root, &["build", "--release", "--package", "partita", "--bin", "partita"]))?;
+    let this =
+        std::env::current_exe().map_err(|source| TaskError::File { path: PathBuf::from("xtask"), source })?;
+    let target = this.parent().and_then(Path::parent).expect("cargo puts a binary into target/<profile>");
+    Ok(target.join("release").join(format!("partita{}", std::env::consts::EXE_SUFFIX)))
+}
+
 /// The text of a file.
 pub(crate) fn read(path: &Path) -> Result<String, TaskError> {
     std::fs::read_to_string(path).map_err(|source| TaskError::File { path: path.to_owned(), source })

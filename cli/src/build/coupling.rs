@@ -3,12 +3,16 @@
 use partita_coupling::accelerate::{Acceleration, Filter, QuasiNewton};
 use partita_coupling::{AtLimit, Bound, CouplingSettings, Criterion, NewtonLimit, Policy, Predictor};
 
-use crate::scene::schema;
+use crate::scene::schema::{self, Direction};
 
-/// The settings of a run of both fields.
+/// The settings of a run of both fields. (A scene whose coupling is two-way has an acceleration.)
 pub(super) fn settings(coupling: &schema::Coupling) -> CouplingSettings {
+    let Some(chosen) = coupling.acceleration.as_ref().filter(|_| coupling.direction == Direction::TwoWay)
+    else {
+        return one_call();
+    };
     CouplingSettings {
-        acceleration: acceleration(&coupling.acceleration),
+        acceleration: acceleration(chosen),
         policy: policy(coupling),
         criterion: criterion(coupling.convergence),
         predictor: match coupling.predictor {
@@ -25,8 +29,9 @@ pub(super) fn settings(coupling: &schema::Coupling) -> CouplingSettings {
     }
 }
 
-/// The settings of a run of one field: one call a step, to convergence. The empty interface has no residual.
-pub(super) fn one_field() -> CouplingSettings {
+/// The settings of a run in which no displacement comes back, of one field alone say: one call a step, to convergence.
+/// The empty interface has no residual.
+pub(super) fn one_call() -> CouplingSettings {
     CouplingSettings {
         acceleration: Acceleration::Constant { omega: 1.0 },
         policy: Policy::Fixed { first: NewtonLimit::ToConvergence, second: NewtonLimit::ToConvergence },

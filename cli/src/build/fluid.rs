@@ -10,17 +10,22 @@ use partita_numerics::time::BdfOrder;
 use super::{BuildError, newton};
 use crate::scene::schema;
 
-/// The solver of a scene's fluid on `mesh`, at its initial state.
+/// The solver of a scene's fluid on `mesh`, at its initial state; `moves` tells whether its interface does.
 ///
 /// # Errors
 /// When mesh, conditions and settings do not fit together.
-pub(super) fn solver(fluid: &schema::Fluid, mesh: Mesh<2>) -> Result<FluidSolver<2>, BuildError> {
+pub(super) fn solver(
+    fluid: &schema::Fluid,
+    mesh: Mesh<2>,
+    moves: bool,
+) -> Result<FluidSolver<2>, BuildError> {
     let settings = settings(fluid, &mesh);
-    Ok(FluidSolver::new(mesh, model(fluid), settings)?)
+    Ok(FluidSolver::new(mesh, model(fluid, moves), settings)?)
 }
 
-fn model(fluid: &schema::Fluid) -> FluidModel<2> {
-    let conditions = fluid.boundary.iter().map(|(group, condition)| (group.clone(), boundary(condition)));
+fn model(fluid: &schema::Fluid, moves: bool) -> FluidModel<2> {
+    let conditions =
+        fluid.boundary.iter().map(|(group, condition)| (group.clone(), boundary(condition, moves)));
     FluidModel {
         density: fluid.density.get(),
         viscosity: fluid.viscosity.get(),
@@ -36,12 +41,13 @@ fn model(fluid: &schema::Fluid) -> FluidModel<2> {
     }
 }
 
-fn boundary(condition: &schema::Condition) -> BoundaryCondition<2> {
+fn boundary(condition: &schema::Condition, moves: bool) -> BoundaryCondition<2> {
     use schema::Condition;
     match condition {
         Condition::NoSlip => BoundaryCondition::NoSlip,
         Condition::Slip => BoundaryCondition::Slip,
-        Condition::Interface => BoundaryCondition::Interface,
+        Condition::Interface if moves => BoundaryCondition::Interface,
+        Condition::Interface => BoundaryCondition::RigidInterface,
         Condition::Velocity(formula) => BoundaryCondition::Velocity(formula.function()),
         Condition::WallMotion(formula) => BoundaryCondition::WallMotion(formula.function()),
         Condition::Traction(formula) => BoundaryCondition::Traction(formula.function()),
@@ -66,6 +72,7 @@ fn settings(fluid: &schema::Fluid, mesh: &Mesh<2>) -> FluidSettings {
             schema::Tangent::FrozenTau => Tangent::FrozenTau,
             schema::Tangent::Picard => Tangent::Picard,
         },
+        convection: fluid.convection,
         inverse_constant: fluid.inverse_constant.get(),
         grad_div: fluid.grad_div.get(),
         newton: newton(&fluid.newton),

@@ -26,7 +26,9 @@ pub(super) fn describe(path: &[String]) -> Option<String> {
 /// The choices at a path, if it is a place to choose.
 pub(super) fn choices(path: &[String]) -> Vec<&'static str> {
     let node = path.iter().try_fold(&*SCENE, |node, name| member(node, name).map(|(_, node)| node));
-    node.into_iter().flat_map(|node| list(resolved(node), "oneOf")).filter_map(variant_name).collect()
+    // A choice that may be left out is an alternative to nothing.
+    let places = node.into_iter().flat_map(|node| std::iter::once(node).chain(list(resolved(node), "anyOf")));
+    places.flat_map(|node| list(resolved(node), "oneOf")).filter_map(variant_name).collect()
 }
 
 /// The tables, written `[fluid.mesh.rectangle]`, that have a key of this name.

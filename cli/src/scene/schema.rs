@@ -20,7 +20,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use coupling::{
-    Acceleration, Convergence, Coupling, Filter, NewtonPolicy, OnLimit, Predictor, QuasiNewton,
+    Acceleration, Convergence, Coupling, Direction, Filter, NewtonPolicy, OnLimit, Predictor, QuasiNewton,
 };
 pub use file::FileName;
 pub use fluid::{
@@ -62,6 +62,15 @@ pub struct Scene {
     /// What is written, and how often.
     #[serde(default)]
     pub output: Output,
+}
+
+impl Scene {
+    /// Whether displacements come back from the structure, where there is one, to the fluid.
+    #[must_use]
+    pub fn moves_the_interface(&self) -> bool {
+        let direction = self.coupling.as_ref().map(|coupling| coupling.direction).unwrap_or_default();
+        self.structure.is_some() && direction == Direction::TwoWay
+    }
 }
 
 /// `[time]`.

@@ -19,7 +19,7 @@ use super::shapes::Shapes;
 pub(super) fn validate(check: &mut Check<'_>, scene: &Scene) {
     fields::check(check, scene);
     if let Some(fluid) = &scene.fluid {
-        fluid::check(check, scene, fluid, scene.structure.is_some());
+        fluid::check(check, scene, fluid);
     }
     if let Some(structure) = &scene.structure {
         structure::check(check, structure, scene.fluid.is_some());

@@ -27,7 +27,9 @@ fn probes(name: &str, steps: usize, overrides: &[&str]) -> String {
     let (head, last) = (table.lines().next().expect("a head"), table.lines().last().expect("a row"));
     let mut text = String::new();
     // In the first steps nothing moves yet, and the volume defect is round-off.
-    for (column, cell) in head.split(',').zip(last.split(',')).filter(|(column, _)| !column.ends_with("defect")) {
+    for (column, cell) in
+        head.split(',').zip(last.split(',')).filter(|(column, _)| !column.ends_with("defect"))
+    {
         let value: f64 = cell.parse().expect("a number");
         writeln!(text, "{column} {value:.5e}").expect("a String takes any text");
     }

@@ -86,6 +86,7 @@ fn a_resolved_scene_holds_every_default() {
     viscosity = 200.0
     body_force = [0.0, -9.81]
     time_scheme = "bdf1"
+    convection = true
     tangent = "full"
     inverse_constant = 36.0
     grad_div = 1.0
@@ -140,6 +141,7 @@ fn a_resolved_scene_holds_every_default() {
     max_iterations = 50
 
     [coupling]
+    direction = "two_way"
     max_iterations = 100
     on_limit = "fail"
     projection_tolerance = 1e-6

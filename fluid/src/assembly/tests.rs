@@ -37,6 +37,7 @@ fn is_the_same_to_the_bit<const D: usize, const N: usize>(mesh: &Mesh<D>, count:
     let frames = Frames::new(&[], nodes);
     let (values, vectors) = (numbers(nodes * (D + 1), 1), [2, 3, 4].map(|seed| numbers(nodes * D, seed)));
     let iterate = Iterate {
+        convects: true,
         flow: &flow,
         cells: &cells,
         points: mesh.points(),

@@ -14,4 +14,5 @@ mod kernel;
 mod newton;
 mod probe;
 mod state;
+mod stokes;
 mod tangent;

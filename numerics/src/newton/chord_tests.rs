@@ -14,6 +14,8 @@ struct Curves {
     tangent: [[f64; 2]; 2],
     inverse: [[f64; 2]; 2],
     log: FactorLog,
+    /// Where the last step started.
+    start: [f64; 2],
 }
 
 impl Curves {
@@ -27,6 +29,7 @@ impl Curves {
             tangent: zero,
             inverse: zero,
             log: FactorLog::default(),
+            start: [0.0; 2],
         }
     }
 
@@ -68,6 +71,7 @@ impl Problem for Curves {
     }
 
     fn solve_with_kept_factor(&mut self) -> Result<(), Self::Error> {
+        self.start = self.point;
         let step = small::apply(&self.inverse, &self.residual);
         self.point = [self.point[0] - step[0], self.point[1] - step[1]];
         Ok(())
@@ -75,6 +79,10 @@ impl Problem for Curves {
 
     fn kept_factor(&self) -> KeptFactor {
         self.log.worth(&[0.0; 3], self.is_linear)
+    }
+
+    fn take_back(&mut self) {
+        self.point = self.start;
     }
 
     fn drop_factor(&mut self) {
@@ -124,6 +132,31 @@ fn a_factor_serves_later_calls() {
     problem.drop_factor();
     problem.radius = 2.02;
     assert_eq!(problem.run(Some(0.5)).0.factorizations, 1);
+}
+
+#[test]
+fn a_step_that_raises_the_residual_is_taken_back() {
+    let (mut chord, mut newton) = (Curves::new(false), Curves::new(false));
+    chord.run(Some(0.5));
+    // At the other end of the hyperbola, where the factor leads astray.
+    for problem in [&mut chord, &mut newton] {
+        problem.point = [-0.2, -4.0];
+        problem.radius = 5.0;
+    }
+    let (report, _) = chord.run(Some(1e-9));
+    let (expected, _) = newton.run(None);
+    // One solve in vain, its residual, and that of the return; then Newton's method.
+    assert_eq!((report.iterations, report.factorizations), (expected.iterations, expected.factorizations));
+    assert_eq!(report.solves, expected.solves + 1);
+    assert_eq!(chord.point.map(f64::to_bits), newton.point.map(f64::to_bits));
+    // A call of one iteration makes one all the same.
+    chord.log.factored([0.0; 3]);
+    chord.inverse = [[-3.0, 0.0], [0.0, -3.0]];
+    chord.radius = 6.0;
+    let settings = Settings { reuse_factor: Some(0.5), ..Settings::default() };
+    let report = solve(&mut chord, &settings, Limit::AtMost(1), |_, _| Verdict::Continue).expect("a call");
+    assert_eq!((report.iterations, report.solves, report.factorizations), (1, 2, 1));
+    assert!(report.exit.absolute < report.entry.absolute);
 }
 
 #[test]

@@ -9,7 +9,8 @@ use super::{Check, Failure, Iteration, KeptFactor, Limit, Problem, Report, Resid
 /// evaluate R at the entry
 /// repeat   Before: |R| below its bound? converged
 ///          limit reached? leave
-///          (dR/ds) ds = -R,  s <- s + ds,  evaluate R       (with a kept factor where it serves)
+///          (dR/ds) ds = -R,  s <- s + ds,  evaluate R
+///              (with a kept factor where it serves; if |R| rises, back to s, and with the factor there)
 ///          not finite, exploded, standing still? fail
 ///          Lagged: |R| before this solve below its bound? converged
 ///          callback says stop? leave
@@ -75,13 +76,22 @@ pub fn solve<P: Problem>(
             assemble(problem, report.iterations, true, Some((entry, before)))?;
             report.count_assembly(true);
         }
+        let is_chord = !refactors && problem.kept_factor() == KeptFactor::Earlier;
         let solved = if refactors { problem.solve_and_update() } else { problem.solve_with_kept_factor() };
         solved.map_err(|source| Failure::Problem { iteration: index, source })?;
         report.count_solve(refactors);
         let is_last = index == most || (lagged && bound.met(&before));
         has_tangent = !is_last && needs_tangent(problem, settings);
-        let residual = assemble(problem, index, has_tangent, Some((entry, before)))?;
+        let residual = assemble(problem, index, has_tangent, Some((entry, before)));
         report.count_assembly(has_tangent);
+        if is_chord && raises(settings, &before, residual.as_ref().ok()) {
+            problem.take_back();
+            problem.drop_factor();
+            has_tangent = false;
+            continue;
+        }
+        let residual = residual?;
+        report.iterations = index;
         report.exit = residual;
         if is_slow(settings, &before, &residual) {
             problem.drop_factor();
@@ -115,8 +125,16 @@ fn needs_tangent<P: Problem>(problem: &P, settings: &Settings) -> bool {
 /// be asked to fall on.
 fn is_slow(settings: &Settings, before: &ResidualNorm, after: &ResidualNorm) -> bool {
     let Settings { bound, reuse_factor, .. } = settings;
-    let falls = |wanted: f64| bound.measure(after) < wanted * bound.measure(before);
+    let falls = |wanted: f64| {
+        bound.measure(after) < wanted * bound.measure(before) && after.absolute < wanted * before.absolute
+    };
     reuse_factor.is_some_and(|wanted| !falls(wanted)) && !bound.met(after)
+}
+
+/// Whether a step has led away from the solution, or to where there is no residual. (In itself: the scale of a residual
+/// may grow with it.)
+fn raises(settings: &Settings, before: &ResidualNorm, after: Option<&ResidualNorm>) -> bool {
+    after.is_none_or(|after| after.absolute >= before.absolute && !settings.bound.met(after))
 }
 
 /// Assembles and refuses a residual that is not finite.
@@ -152,7 +170,6 @@ impl Report {
     }
 
     fn count_solve(&mut self, with_factorization: bool) {
-        self.iterations += 1;
         self.factorizations += usize::from(with_factorization);
         self.solves += 1;
     }

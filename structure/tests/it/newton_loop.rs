@@ -85,6 +85,37 @@ fn a_linear_structure_takes_one_iteration() {
 }
 
 #[test]
+fn a_linear_structure_is_factored_once_for_all_steps_of_one_size() {
+    let mut model = bare(linear(1e6, 0.3));
+    model.clamped = [Side::LEFT].into();
+    model.body_force = BodyForce::in_time(|t| [10.0 * t, -10.0]);
+    let mut solver = solver(beam(1.0, 0.1, 2, 10), model, dynamic(0.5));
+    solver.start_from_equilibrium(0.0).unwrap();
+    let mut time = 0.0;
+    let mut step = |dt: f64| {
+        time += dt;
+        let report = solver.advance(time, dt).unwrap();
+        assert_eq!((report.solves, report.assemblies, report.tangents), (1, 2, report.factorizations));
+        report.factorizations
+    };
+    assert_eq!([0.1, 0.1, 0.1, 0.05, 0.05].map(&mut step), [1, 0, 0, 1, 0]);
+}
+
+#[test]
+fn a_chord_finds_the_large_deflection_with_fewer_factors() {
+    let newton = |reuse_factor| newton::Settings { reuse_factor, ..newton::Settings::default() };
+    let [whole, chord] = [None, Some(0.5)].map(|reuse_factor| {
+        let mut solver = cantilever(0.3, StructureSettings { newton: newton(reuse_factor), ..dynamic(0.5) });
+        let reports: Vec<_> = (1..=5).map(|n| solver.advance(0.1 * f64::from(n), 0.1).unwrap()).collect();
+        let count = |of: fn(&newton::Report) -> usize| reports.iter().map(of).sum::<usize>();
+        let counts = [count(|report| report.factorizations), count(|report| report.iterations)];
+        (counts, solver.displacement_at(&[1.0, 0.5])[1])
+    });
+    assert!(chord.0[0] < whole.0[0] && chord.0[1] > whole.0[1], "{chord:?} and {whole:?}");
+    assert!((chord.1 / whole.1 - 1.0).abs() < 1e-7, "{chord:?} and {whole:?}");
+}
+
+#[test]
 fn a_call_that_enters_converged_costs_nothing() {
     for settings in [quasi_static(), dynamic(0.5)] {
         let mut solver = cantilever(0.1, settings);

@@ -15,15 +15,19 @@ const FRAMES: usize = 40;
 ///
 /// # Errors
 /// When the level has no period, or the copy cannot be made or run.
-pub(super) fn period(binary: &Path, case: &Case, dir: &Path, samples: Option<&Samples>) -> Result<PathBuf, TaskError> {
-    let nothing = || TaskError::Failed(format!("{}: nothing in it swings, so there is no period to draw", case.name));
+pub(super) fn period(
+    binary: &Path,
+    case: &Case,
+    dir: &Path,
+    samples: Option<&Samples>,
+) -> Result<PathBuf, TaskError> {
+    let nothing =
+        || TaskError::Failed(format!("{}: nothing in it swings, so there is no period to draw", case.name));
     // The time of the first sample is about minus one period before the last one begins.
     let times = samples.and_then(|samples| samples.get("time")).ok_or_else(nothing)?;
     let steps = times.iter().filter(|&&time| time < 0.0).count();
-    let copy = dir.with_file_name(format!(
-        "{}-period",
-        dir.file_name().unwrap_or_default().to_string_lossy()
-    ));
+    let copy =
+        dir.with_file_name(format!("{}-period", dir.file_name().unwrap_or_default().to_string_lossy()));
     duplicate(dir, &copy)?;
     let scene = copy.join("scene.toml");
     let done = done(&copy)?;
@@ -72,8 +76,10 @@ mod tests {
 
     #[test]
     fn only_the_end_and_the_fields_of_a_scene_change() {
-        let scene = "[time]\nstep = 0.002\nsteps = 100\n\n[output]\nfields_every = 0\ncheckpoint_every = 200\n";
-        let expected = "[time]\nstep = 0.002\nsteps = 145\n\n[output]\nfields_every = 2\ncheckpoint_every = 200\n";
+        let scene =
+            "[time]\nstep = 0.002\nsteps = 100\n\n[output]\nfields_every = 0\ncheckpoint_every = 200\n";
+        let expected =
+            "[time]\nstep = 0.002\nsteps = 145\n\n[output]\nfields_every = 2\ncheckpoint_every = 200\n";
         assert_eq!(with_fields(scene, 145, 2), expected);
     }
 }

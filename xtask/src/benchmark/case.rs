@@ -129,7 +129,18 @@ mod tests {
     fn the_shipped_cases_are_sound() {
         let cases = all(workspace_root()).expect("they can be read");
         let mut names: Vec<&str> = cases.iter().map(|case| case.name.as_str()).collect();
-        for needed in ["cavity-re100", "cavity-re400", "cavity-re1000", "cfd1", "csm1", "csm3", "fsi1", "cfd3", "fsi2", "fsi3"] {
+        for needed in [
+            "cavity-re100",
+            "cavity-re400",
+            "cavity-re1000",
+            "cfd1",
+            "csm1",
+            "csm3",
+            "fsi1",
+            "cfd3",
+            "fsi2",
+            "fsi3",
+        ] {
             assert!(names.contains(&needed), "{needed} is missing in {names:?}");
         }
         names.sort_unstable();
@@ -139,7 +150,11 @@ mod tests {
             assert!(case.levels.len() >= 3, "{} has fewer than three levels", case.name);
             assert!(!case.quantities.is_empty(), "{} compares nothing", case.name);
             if let Some(until) = &case.until {
-                assert!(case.quantities.iter().any(|quantity| quantity.column == until.column), "{}", case.name);
+                assert!(
+                    case.quantities.iter().any(|quantity| quantity.column == until.column),
+                    "{}",
+                    case.name
+                );
                 assert!(until.periods > 1 && until.every > 0 && until.percent > 0.0, "{}", case.name);
             }
             for quantity in &case.quantities {

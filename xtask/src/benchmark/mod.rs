@@ -20,7 +20,7 @@ use options::{Mode, Options};
 use row::Row;
 pub(crate) use run::unknowns;
 
-use crate::task::{TaskError, cargo, run as run_command};
+use crate::task::{self, TaskError};
 
 const DATA: &str = "docs/data/benchmarks.csv";
 /// Samples of the last periods, a file a level.
@@ -33,7 +33,7 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
     let options = Options::read(words).map_err(TaskError::Failed)?;
     let cases = case::all(root)?;
     let chosen = options.choose(&cases).map_err(TaskError::Failed)?;
-    let binary = release_binary(root)?;
+    let binary = task::release_binary(root)?;
     let folder = binary.parent().and_then(Path::parent).expect("target/release/partita").join("benchmark");
     let mut kept = kept_rows(root)?;
     let mut differing = Vec::new();
@@ -60,15 +60,6 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
         }
     }
     if differing.is_empty() { Ok(()) } else { Err(TaskError::Failed(differing.join("\n"))) }
-}
-
-/// Builds the program; it lies beside the profile of this one.
-pub(crate) fn release_binary(root: &Path) -> Result<PathBuf, TaskError> {
-    run_command(cargo(root, &["build", "--release", "--package", "partita", "--bin", "partita"]))?;
-    let this =
-        std::env::current_exe().map_err(|source| TaskError::File { path: PathBuf::from("xtask"), source })?;
-    let target = this.parent().and_then(Path::parent).expect("cargo puts a binary into target/<profile>");
-    Ok(target.join("release").join(format!("partita{}", std::env::consts::EXE_SUFFIX)))
 }
 
 fn kept_rows(root: &Path) -> Result<Vec<Row>, TaskError> {
@@ -207,7 +198,12 @@ mod tests {
             // Runs to a periodic state are long; the page names the levels that are missing.
             assert!(levels == case.levels.len() || case.until.is_some(), "levels of {}", case.name);
             let samples = kept_samples(root, case).expect("the shipped signals");
-            assert_eq!(samples.len(), if case.until.is_some() { levels } else { 0 }, "signals of {}", case.name);
+            assert_eq!(
+                samples.len(),
+                if case.until.is_some() { levels } else { 0 },
+                "signals of {}",
+                case.name
+            );
             for (file, picture) in [
                 (case.name.clone(), plot::errors(&case.title, &of_case)),
                 (format!("{}-signals", case.name), signals::picture(case, &samples)),

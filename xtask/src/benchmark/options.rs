@@ -86,7 +86,12 @@ mod tests {
         assert_eq!(read(&[]), Ok(Options::default()));
         assert_eq!(
             read(&["csm1", "--level", "2", "fsi1", "--mode", "write"]),
-            Ok(Options { cases: vec!["csm1".into(), "fsi1".into()], level: Some(2), mode: Mode::Write, animate: false })
+            Ok(Options {
+                cases: vec!["csm1".into(), "fsi1".into()],
+                level: Some(2),
+                mode: Mode::Write,
+                animate: false
+            })
         );
         assert!(read(&["fsi2", "--animate"]).expect("sound words").animate);
         for wrong in [&["--level", "0"][..], &["--level"], &["--mode", "see"], &["--all"]] {

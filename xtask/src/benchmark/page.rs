@@ -87,7 +87,13 @@ fn section(text: &mut String, case: &Case, rows: &[&Row]) {
         put(text, &format!("| ... a step | |{}", cells(&|row| per(row, row.steps as f64))));
     }
     if levels.iter().any(|row| !row.simulated_seconds.is_empty()) {
-        put(text, &format!("| ... a simulated second | |{}", cells(&|row| per(row, number(&row.simulated_seconds)))));
+        put(
+            text,
+            &format!(
+                "| ... a simulated second | |{}",
+                cells(&|row| per(row, number(&row.simulated_seconds)))
+            ),
+        );
     }
     if levels.iter().any(|row| !row.repeats_percent.is_empty()) {
         let cell = |row: &Row| format!("{} %", row.repeats_percent);

@@ -53,8 +53,21 @@ impl Row {
 
     fn read(line: &str) -> Option<Self> {
         let cells: Vec<&str> = line.split(',').collect();
-        let [case, level, quantity, reference, ours, error, target, dofs, steps, cpu, coupling, time, repeats] =
-            cells[..]
+        let [
+            case,
+            level,
+            quantity,
+            reference,
+            ours,
+            error,
+            target,
+            dofs,
+            steps,
+            cpu,
+            coupling,
+            time,
+            repeats,
+        ] = cells[..]
         else {
             return None;
         };

@@ -30,10 +30,8 @@ pub(super) fn last_period(times: &[f64], values: &[f64]) -> Option<Swing> {
 pub(super) fn repetition(times: &[f64], values: &[f64], periods: usize) -> Option<f64> {
     let crossings = crossings(times, values);
     let recent = &crossings[crossings.len().checked_sub(periods + 1)?..];
-    let swings: Vec<Swing> = recent
-        .windows(2)
-        .map(|pair| between(times, values, pair[0], pair[1]))
-        .collect::<Option<_>>()?;
+    let swings: Vec<Swing> =
+        recent.windows(2).map(|pair| between(times, values, pair[0], pair[1])).collect::<Option<_>>()?;
     let last = swings.last()?;
     let differences = swings.iter().flat_map(|swing| {
         [swing.amplitude / last.amplitude - 1.0, last.frequency / swing.frequency - 1.0].map(f64::abs)
@@ -58,7 +56,11 @@ fn crossings(times: &[f64], values: &[f64]) -> Vec<(f64, usize)> {
 fn between(times: &[f64], values: &[f64], begin: (f64, usize), end: (f64, usize)) -> Option<Swing> {
     let extremes = (begin.1..=end.1).flat_map(|i| [values[i], at_the_top(times, values, i)]);
     let (low, high) = range(extremes)?;
-    Some(Swing { mean: 0.5 * (high + low), amplitude: 0.5 * (high - low), frequency: 1.0 / (end.0 - begin.0) })
+    Some(Swing {
+        mean: 0.5 * (high + low),
+        amplitude: 0.5 * (high - low),
+        frequency: 1.0 / (end.0 - begin.0),
+    })
 }
 
 /// Smallest and largest of some numbers, if there are two different ones.

@@ -27,7 +27,8 @@ pub(super) fn last(case: &Case, probes: &BTreeMap<String, Vec<f64>>) -> Option<S
     let until = case.until.as_ref()?;
     let times = probes.get("time")?;
     let (first, origin) = last_samples(times, probes.get(&until.column)?, PERIODS)?;
-    let mut samples = Samples::from([("time".to_owned(), times[first..].iter().map(|t| t - origin).collect())]);
+    let mut samples =
+        Samples::from([("time".to_owned(), times[first..].iter().map(|t| t - origin).collect())]);
     for column in columns(case) {
         samples.insert(column.to_owned(), probes.get(column)?[first..].to_vec());
     }
@@ -68,7 +69,8 @@ pub(super) fn picture(case: &Case, levels: &[(usize, Samples)]) -> Option<String
         let area = SVGBackend::with_string(&mut picture, (SIZE.0, height)).into_drawing_area();
         area.fill(&WHITE).expect("a String takes any picture");
         for (part, column) in area.split_evenly((columns.len(), 1)).iter().zip(&columns) {
-            signal(part, column, &label(case, column), scale(case, column), levels).expect("a String takes any picture");
+            signal(part, column, &label(case, column), scale(case, column), levels)
+                .expect("a String takes any picture");
         }
         area.present().expect("a String takes any picture");
     }
@@ -113,7 +115,14 @@ fn signal(
         .x_label_area_size(30)
         .y_label_area_size(60)
         .build_cartesian_2d(all("time", 1.0), all(column, scale))?;
-    chart.configure_mesh().light_line_style(WHITE).x_labels(9).y_labels(5).x_desc("s").y_desc(label).draw()?;
+    chart
+        .configure_mesh()
+        .light_line_style(WHITE)
+        .x_labels(9)
+        .y_labels(5)
+        .x_desc("s")
+        .y_desc(label)
+        .draw()?;
     for ((level, samples), colour) in levels.iter().zip(COLOURS.into_iter().cycle()) {
         let points = samples["time"].iter().zip(&samples[column]).map(|(t, value)| (*t, scale * value));
         chart

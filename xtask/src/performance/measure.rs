@@ -7,7 +7,7 @@ use std::process::Command;
 use serde::Deserialize;
 
 use super::Data;
-use crate::benchmark::{release_binary, unknowns};
+use crate::benchmark::unknowns;
 use crate::task::{TaskError, captured, cargo, read, remove_folder, run};
 
 /// Divisions a side of the tank whose Newton iteration is taken apart: about 6 n^2 unknowns.
@@ -35,7 +35,7 @@ pub(super) fn all(root: &Path, largest: usize) -> Result<Data, TaskError> {
     for divisions in STEPS.into_iter().filter(fits) {
         bench(root, &mut data, &["step", &divisions.to_string()])?;
     }
-    let binary = release_binary(root)?;
+    let binary = crate::task::release_binary(root)?;
     for (scene, steps) in SCENES {
         scene_steps(root, &binary, &mut data, scene, steps)?;
     }

@@ -13,6 +13,10 @@ use super::numbers::{Count, Fraction, Positive, Relaxation};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Coupling {
+    /// `"two_way"` (default): the structure gives way to the fluid's load and moves the fluid, with iterations until both
+    /// balance; or `"one_way"`: it gives way, and the fluid does not notice.
+    #[serde(default)]
+    pub direction: Direction,
     /// Coupling iterations a step may take. Default: 100.
     #[serde(default = "max_iterations")]
     pub max_iterations: Count,
@@ -25,8 +29,9 @@ pub struct Coupling {
     /// First guess of a step's interface displacement: `"constant"` (default), `"linear"`, `"quadratic"`, `"cubic"`.
     #[serde(default)]
     pub predictor: Predictor,
-    /// What makes the next interface displacement from the last ones.
-    pub acceleration: Acceleration,
+    /// What makes the next interface displacement from the last ones; must be given where the coupling is two-way.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub acceleration: Option<Acceleration>,
     /// When a step is done. Default: `{ changes = 1e-5 }`.
     #[serde(default)]
     pub convergence: Convergence,
@@ -41,6 +46,18 @@ fn max_iterations() -> Count {
 
 fn projection_tolerance() -> Positive {
     Positive::new(1e-6).expect("1e-6 is positive")
+}
+
+/// `coupling.direction`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Direction {
+    /// Loads go to the structure, displacements to the fluid.
+    #[default]
+    TwoWay,
+    /// Loads alone: each field is called once a step, to convergence, and the interface stands still for the fluid. Of
+    /// `[coupling]` only `projection_tolerance` counts.
+    OneWay,
 }
 
 /// `coupling.on_limit`.

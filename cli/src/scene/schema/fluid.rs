@@ -24,6 +24,10 @@ pub struct Fluid {
     /// Time derivative: `"bdf1"` (default), `"bdf2"` or `"steady"`.
     #[serde(default)]
     pub time_scheme: FluidTimeScheme,
+    /// Whether the fluid carries its momentum with it. Without, the equations are those of Stokes, linear: one linear solve
+    /// a call, and one factorization a run where neither mesh nor step size changes. Default: true.
+    #[serde(default = "on")]
+    pub convection: bool,
     /// Matrix of the Newton iteration: `"full"` (default), `"frozen_tau"` or `"picard"`.
     #[serde(default)]
     pub tangent: Tangent,
@@ -49,6 +53,10 @@ pub struct Fluid {
     /// How the mesh follows its boundary.
     #[serde(default)]
     pub mesh_motion: MeshMotion,
+}
+
+const fn on() -> bool {
+    true
 }
 
 fn inverse_constant() -> Positive {

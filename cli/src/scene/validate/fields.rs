@@ -2,7 +2,7 @@
 
 use super::Check;
 use crate::scene::finding::Finding;
-use crate::scene::schema::{Fluid, FluidTimeScheme, Probe, Scene, Structure, StructureTimeScheme};
+use crate::scene::schema::{Direction, Fluid, FluidTimeScheme, Probe, Scene, Structure, StructureTimeScheme};
 
 pub(super) fn check(check: &mut Check<'_>, scene: &Scene) {
     match (&scene.fluid, &scene.structure) {
@@ -13,7 +13,10 @@ pub(super) fn check(check: &mut Check<'_>, scene: &Scene) {
         ),
         (Some(fluid), Some(structure)) => {
             needs_coupling(check, scene);
-            steadiness(check, fluid, structure);
+            if scene.moves_the_interface() {
+                needs_acceleration(check, scene);
+                steadiness(check, fluid, structure);
+            }
         }
         _ if scene.coupling.is_some() => {
             let (there, missing) =
@@ -37,6 +40,19 @@ fn needs_coupling(check: &mut Check<'_>, scene: &Scene) {
             Finding::new("the scene has a fluid and a structure but no [coupling]")
                 .mark_if(check.key(&["structure"]), "how does this meet the fluid?")
                 .hint("add a table [coupling] with an acceleration, such as `acceleration = \"iqn_imvls\"`"),
+        );
+    }
+}
+
+fn needs_acceleration(check: &mut Check<'_>, scene: &Scene) {
+    if scene.coupling.as_ref().is_some_and(|coupling| coupling.acceleration.is_none()) {
+        check.add(
+            Finding::new("[coupling] has no acceleration")
+                .mark_if(check.key(&["coupling"]), "how does the next displacement come from the last?")
+                .hint(
+                    "add one, such as `acceleration = \"iqn_imvls\"`, or take `direction = \"one_way\"`, \
+                     where nothing comes back to the fluid",
+                ),
         );
     }
 }
@@ -71,6 +87,16 @@ fn check_probe(check: &mut Check<'_>, scene: &Scene, name: &str, probe: &Probe) 
         Probe::InterfaceWork if !fluid => Some("fluid"),
         Probe::InterfaceWork => (!structure).then_some("structure"),
     };
+    if let (Probe::InterfaceWork, Some(Direction::OneWay)) =
+        (probe, scene.coupling.as_ref().map(|c| c.direction))
+    {
+        check.add(
+            Finding::new(format!("probe `{name}` needs a coupling in both directions"))
+                .mark_if(check.value(&["output", "probes", name]), "the interface stands still for the fluid")
+                .mark_if(check.value(&["coupling", "direction"]), "one way here")
+                .hint("leave the probe out, or take `direction = \"two_way\"`"),
+        );
+    }
     if let Some(field) = missing {
         check.add(
             Finding::new(format!("probe `{name}` needs a {field}"))

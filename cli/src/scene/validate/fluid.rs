@@ -9,13 +9,14 @@ use crate::scene::schema::{Condition, Fluid, FluidMesh, RectangleMesh, Scene};
 /// Cells of a generated mesh; more would not fit any machine the program is written for.
 const MOST_CELLS: f64 = 1e8;
 
-pub(super) fn check(check: &mut Check<'_>, scene: &Scene, fluid: &Fluid, coupled: bool) {
+pub(super) fn check(check: &mut Check<'_>, scene: &Scene, fluid: &Fluid) {
     if let FluidMesh::Rectangle(mesh) = &fluid.mesh {
         size(check, mesh);
         groups::check(check, scene, fluid, &generate::RECTANGLE_SIDES);
     }
-    interface(check, fluid, coupled);
-    pressure(check, fluid, coupled);
+    interface(check, fluid, scene.structure.is_some());
+    pressure(check, fluid, scene.moves_the_interface());
+    backflow(check, fluid);
 }
 
 fn size(check: &mut Check<'_>, mesh: &RectangleMesh) {
@@ -46,11 +47,28 @@ fn interface(check: &mut Check<'_>, fluid: &Fluid, coupled: bool) {
     }
 }
 
+/// The term takes out energy that convection lets in.
+fn backflow(check: &mut Check<'_>, fluid: &Fluid) {
+    let stabilized = |condition: &Condition| match condition {
+        Condition::DoNothing(outflow) | Condition::StressFree(outflow) => outflow.backflow_stabilization,
+        _ => false,
+    };
+    let found = fluid.boundary.iter().find(|(_, condition)| stabilized(condition));
+    if let (Some((group, _)), false) = (found, fluid.convection) {
+        check.add(
+            Finding::new(format!("`{group}` stabilizes backflow of a fluid without convection"))
+                .mark_if(check.value(&["fluid", "boundary", group]), "stabilized here")
+                .mark_if(check.value(&["fluid", "convection"]), "switched off here")
+                .hint("fluid that flows back then brings no momentum: leave out `backflow_stabilization`"),
+        );
+    }
+}
+
 /// An incompressible fluid needs one place where its pressure is known.
-fn pressure(check: &mut Check<'_>, fluid: &Fluid, coupled: bool) {
+fn pressure(check: &mut Check<'_>, fluid: &Fluid, is_moved: bool) {
     let opening = fluid.boundary.iter().find(|(_, condition)| is_open(condition)).map(|(group, _)| group);
     let moves =
-        coupled || fluid.boundary.values().any(|condition| matches!(condition, Condition::WallMotion(_)));
+        is_moved || fluid.boundary.values().any(|condition| matches!(condition, Condition::WallMotion(_)));
     match (opening, &fluid.pressure_pin) {
         (Some(group), Some(_)) => check.add(
             Finding::new("the pressure is fixed twice")

@@ -39,7 +39,7 @@ fn an_override_of_a_choice_takes_its_place() {
         "fluid.newton.tolerance.absolute=1e-8",
     ]);
     let coupling = scene.coupling.unwrap();
-    assert_eq!(coupling.acceleration, Acceleration::Constant { relaxation: relaxation(0.5) });
+    assert_eq!(coupling.acceleration, Some(Acceleration::Constant { relaxation: relaxation(0.5) }));
     assert_eq!(coupling.convergence, Convergence::EntryResiduals);
     let fluid = scene.fluid.unwrap();
     let Condition::Velocity(inflow) = &fluid.boundary["left"] else { panic!("{:?}", fluid.boundary) };
@@ -51,14 +51,14 @@ fn a_bare_word_names_a_choice_with_its_defaults() {
     let acceleration = |overrides: &[&str]| with(overrides).coupling.unwrap().acceleration;
     assert_eq!(
         acceleration(&["coupling.acceleration=aitken"]),
-        Acceleration::Aitken { initial_relaxation: relaxation(0.1) }
+        Some(Acceleration::Aitken { initial_relaxation: relaxation(0.1) })
     );
     assert_eq!(
         acceleration(&[
             "coupling.acceleration=aitken",
             "coupling.acceleration.aitken.initial_relaxation=0.3"
         ]),
-        Acceleration::Aitken { initial_relaxation: relaxation(0.3) }
+        Some(Acceleration::Aitken { initial_relaxation: relaxation(0.3) })
     );
 }
 

@@ -277,3 +277,52 @@ fn every_misfit_has_its_own_words() {
     the scene has neither a fluid nor a structure
     "#);
 }
+
+#[test]
+fn a_coupling_in_both_directions_needs_an_acceleration() {
+    assert_snapshot!(broken("[coupling.acceleration.iqn_imvls]\ninitial_relaxation = 0.1", "[coupling]\nmax_iterations = 20"), @r#"
+      × [coupling] has no acceleration
+        ╭─[scene.toml:36:2]
+     35 │ 
+     36 │ [coupling]
+        ·  ────┬───
+        ·      ╰── how does the next displacement come from the last?
+     37 │ max_iterations = 20
+        ╰────
+      help: add one, such as `acceleration = "iqn_imvls"`, or take `direction = "one_way"`, where
+            nothing comes back to the fluid
+    "#);
+}
+
+#[test]
+fn backflow_of_a_fluid_without_convection_is_not_stabilized() {
+    let stabilized = "top = { stress_free = { backflow_stabilization = true } }";
+    let scene = SOUND.replacen("top = \"stress_free\"", stabilized, 1);
+    assert_snapshot!(message(&scene, &["fluid.convection=false"]), @r#"
+      × `top` stabilizes backflow of a fluid without convection
+        ╭─[scene.toml:19:7]
+     18 │ right = "no_slip"
+     19 │ top = { stress_free = { backflow_stabilization = true } }
+        ·       ─────────────────────────┬─────────────────────────
+        ·                                ╰── stabilized here
+     20 │ bottom = "interface"
+        ╰────
+      help: fluid that flows back then brings no momentum: leave out `backflow_stabilization`
+            without the overrides the scene is sound: look at the `--set`s
+    "#);
+}
+
+#[test]
+fn work_at_an_interface_that_stands_still_cannot_be_probed() {
+    let overrides = ["coupling.direction=one_way", "output.probes.work=interface_work"];
+    assert_snapshot!(message(SOUND, &overrides), @r#"
+      × probe `work` needs a coupling in both directions
+       ╭─[--set:1:22]
+     1 │ output.probes.work = "interface_work"
+       ·                      ────────┬───────
+       ·                              ╰── the interface stands still for the fluid
+       ╰────
+      help: leave the probe out, or take `direction = "two_way"`
+            without the overrides the scene is sound: look at the `--set`s
+    "#);
+}

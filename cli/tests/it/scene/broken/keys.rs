@@ -30,8 +30,8 @@ fn a_strange_key_lists_the_keys() {
         ·    ╰── unknown key
      11 │ body_force = [0.0, -9.81]
         ╰────
-      help: keys of [fluid]: density, viscosity, body_force, time_scheme, tangent, inverse_constant,
-            grad_div, pressure_pin, mesh, boundary, initial, newton, mesh_motion
+      help: keys of [fluid]: density, viscosity, body_force, time_scheme, convection, tangent,
+            inverse_constant, grad_div, pressure_pin, mesh, boundary, initial, newton, mesh_motion
     "#);
 }
 

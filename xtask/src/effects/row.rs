@@ -1,0 +1,78 @@
+//! One row of `docs/data/effects.csv`.
+
+use crate::csv::{self, Csv};
+use crate::task::TaskError;
+
+/// Errors that differ by less than this part are the same; what is smaller than [`NOTHING`] is round-off of the bounds.
+const SAME: f64 = 1e-3;
+const NOTHING: f64 = 1e-6;
+
+/// What one run came to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Row {
+    /// What is switched on or left out.
+    pub(super) name: String,
+    /// The effects that ran, as `partita plan` names them.
+    pub(super) effects: String,
+    pub(super) seconds_per_step: String,
+    /// Of both fields, the whole run.
+    pub(super) factorizations: usize,
+    pub(super) assemblies: usize,
+    /// `max_t |d - d_all| / max_t |d_all|` of the beam's tip; 1 where it does not move.
+    pub(super) error: String,
+    /// The same of the force on the beam.
+    pub(super) load_error: String,
+}
+
+const COLUMNS: [&str; 7] =
+    ["scene", "effects", "seconds_per_step", "factorizations", "assemblies", "error", "load_error"];
+
+pub(super) fn to_csv(rows: &[Row]) -> Csv {
+    let mut table = Csv::new(COLUMNS);
+    for row in rows {
+        table.push(vec![
+            row.name.clone(),
+            row.effects.clone(),
+            row.seconds_per_step.clone(),
+            row.factorizations.to_string(),
+            row.assemblies.to_string(),
+            row.error.clone(),
+            row.load_error.clone(),
+        ]);
+    }
+    table
+}
+
+impl Row {
+    pub(super) fn read(row: &csv::Row<'_>) -> Result<Self, TaskError> {
+        Ok(Self {
+            name: row.text("scene")?.to_owned(),
+            effects: row.text("effects")?.to_owned(),
+            seconds_per_step: row.text("seconds_per_step")?.to_owned(),
+            factorizations: row.value("factorizations")?,
+            assemblies: row.value("assemblies")?,
+            error: row.text("error")?.to_owned(),
+            load_error: row.text("load_error")?.to_owned(),
+        })
+    }
+
+    /// Whether two rows say the same, times left aside.
+    pub(super) fn agrees_with(&self, other: &Self) -> bool {
+        let same = |a: &str, b: &str| match (a.parse::<f64>(), b.parse::<f64>()) {
+            (Ok(a), Ok(b)) => (a - b).abs() <= (SAME * a.abs().max(b.abs())).max(NOTHING),
+            _ => a == b,
+        };
+        self.effects == other.effects
+            && (self.factorizations, self.assemblies) == (other.factorizations, other.assemblies)
+            && same(&self.error, &other.error)
+            && same(&self.load_error, &other.load_error)
+    }
+
+    pub(super) fn shown(&self) -> String {
+        let Self { name, seconds_per_step, factorizations, assemblies, error, load_error, .. } = self;
+        format!(
+            "{name:<46} {seconds_per_step:>9} s a step, {factorizations:>5} factorizations, {assemblies:>5} assemblies, \
+             error {error}, of the load {load_error}"
+        )
+    }
+}

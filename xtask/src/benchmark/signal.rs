@@ -17,7 +17,7 @@ const SWUNG: f64 = 0.3;
 
 /// The last whole period of samples `values` at increasing `times`; nothing where there is no whole one.
 ///
-/// The period lies between the last two upward crossings of the middle between the extremes of the second half of the
+/// The period lies between the last two upward crossings of the middle between the extremes of the last fifth of the
 /// run; crossings are interpolated on a line, extremes by a parabola through three samples.
 pub(super) fn last_period(times: &[f64], values: &[f64]) -> Option<Swing> {
     let crossings = crossings(times, values);
@@ -46,9 +46,10 @@ pub(super) fn last_samples(times: &[f64], values: &[f64], periods: usize) -> Opt
     Some((crossings[crossings.len().saturating_sub(periods + 1)].1, begin.0))
 }
 
-/// Where periods begin: upward crossings of the middle of the second half of the run.
+/// Where periods begin: upward crossings of the middle of the last fifth of the run. Before it, a transient may overshoot.
 fn crossings(times: &[f64], values: &[f64]) -> Vec<(f64, usize)> {
-    let Some((low, high)) = range(values[values.len() / 2..].iter().copied()) else { return Vec::new() };
+    let settled = &values[4 * values.len() / 5..];
+    let Some((low, high)) = range(settled.iter().copied()) else { return Vec::new() };
     upward_crossings(times, values, 0.5 * (low + high), SWUNG * 0.5 * (high - low))
 }
 

@@ -118,11 +118,13 @@ fn turek_hron_fsi2() {
     assert_snapshot!(probes("turek-hron-fsi2", 3, &[]), @r"
     step 3.00000e0
     time 1.50000e-2
-    body_force_x 5.47277e-1
-    body_force_y -9.51524e-4
-    interface_work 1.86656e-6
-    tip_displacement_x -3.92712e-7
-    tip_displacement_y -1.00941e-9
+    body_force_x 5.48069e-1
+    body_force_y -2.22759e-3
+    interface_work 1.86631e-6
+    mesh_smallest_ratio 9.99993e-1
+    mesh_worst_shape 7.21023e-1
+    tip_displacement_x -4.33163e-7
+    tip_displacement_y -1.12788e-9
     ");
 }
 
@@ -131,10 +133,12 @@ fn turek_hron_fsi3() {
     assert_snapshot!(probes("turek-hron-fsi3", 3, &[]), @r"
     step 3.00000e0
     time 6.00000e-3
-    body_force_x 4.32681e-1
-    body_force_y -9.96637e-4
-    interface_work 2.49841e-7
-    tip_displacement_x -1.32007e-7
-    tip_displacement_y -9.23040e-11
+    body_force_x 4.34292e-1
+    body_force_y -9.20712e-4
+    interface_work 2.49844e-7
+    mesh_smallest_ratio 9.99999e-1
+    mesh_worst_shape 7.21023e-1
+    tip_displacement_x -1.41473e-7
+    tip_displacement_y -8.84715e-11
     ");
 }

@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use super::case::{Case, Quantity, Take, Until};
 use super::row::{Row, six_digits};
-use super::signal::{last_period, repetition};
+use super::signal::{last_period, last_period_with, repetition};
 use super::signals::{self, Samples};
 use crate::task::{TaskError, captured, run};
 
@@ -61,8 +61,9 @@ pub(super) fn level(
     let probes = Probes::read(&run.dir.join("probes.csv"))?;
     let time = if case.until.is_some() { probes.end() } else { None };
     let repeats = case.until.as_ref().and_then(|until| probes.repetition(until));
+    let lead = case.until.as_ref().map(|until| until.column.as_str());
     let rows = case.quantities.iter().map(|quantity| {
-        let ours = probes.take(quantity).map_err(|what| {
+        let ours = probes.take(quantity, lead).map_err(|what| {
             TaskError::Failed(format!("{} level {level}, {}: {what}", case.name, quantity.name))
         })?;
         Ok(Row {
@@ -300,8 +301,8 @@ impl Probes {
         repetition(self.0.get("time")?, self.0.get(&until.column)?, until.periods)
     }
 
-    /// The value of a quantity, in its own unit.
-    fn take(&self, quantity: &Quantity) -> Result<f64, String> {
+    /// The value of a quantity, in its own unit; where a column leads, over that one's last period.
+    fn take(&self, quantity: &Quantity, lead: Option<&str>) -> Result<f64, String> {
         let column =
             |name: &str| self.0.get(name).ok_or_else(|| format!("probes.csv has no column `{name}`"));
         let (times, values) = (column("time")?, column(&quantity.column)?);
@@ -309,7 +310,11 @@ impl Probes {
             let last = values.last().ok_or("the run has no steps")?;
             return Ok(quantity.scale * last);
         }
-        let swing = last_period(times, values).ok_or("the signal has no whole period")?;
+        let swing = match lead {
+            Some(lead) => last_period_with(times, values, column(lead)?),
+            None => last_period(times, values),
+        };
+        let swing = swing.ok_or("the signal has no whole period")?;
         Ok(match quantity.take {
             Take::Mean => quantity.scale * swing.mean,
             Take::Amplitude => quantity.scale * swing.amplitude,
@@ -342,14 +347,15 @@ mod tests {
         }
         let probes = Probes::parse(&text);
         let take = |take, column: &str| {
-            probes.take(&Quantity {
+            let quantity = Quantity {
                 name: "u".into(),
                 column: column.into(),
                 take,
                 scale: 1000.0,
                 reference: 1.0,
                 target_percent: 1.0,
-            })
+            };
+            probes.take(&quantity, None)
         };
         for (what, expected) in
             [(Take::Last, -60.0), (Take::Mean, -60.0), (Take::Amplitude, 65.0), (Take::Frequency, 1.25)]

@@ -25,6 +25,26 @@ pub(super) fn last_period(times: &[f64], values: &[f64]) -> Option<Swing> {
     between(times, values, begin, end)
 }
 
+/// The same of a signal that swings with another one, `lead`: over the last whole period of that one.
+///
+/// Drag, say, swings twice while a flag swings once, and its two swings are not quite alike: only both together are a period.
+/// The frequency is the number of swings in it over its length.
+pub(super) fn last_period_with(times: &[f64], values: &[f64], lead: &[f64]) -> Option<Swing> {
+    let crossings = crossings(times, lead);
+    let [.., begin, end] = crossings[..] else { return None };
+    let swing = between(times, values, begin, end)?;
+    let period = end.0 - begin.0;
+    // Counted over more than the period, for a crossing may coincide with either end of it.
+    let own: Vec<f64> = upward_crossings(times, values, swing.mean, SWUNG * swing.amplitude)
+        .into_iter()
+        .map(|(time, _)| time)
+        .filter(|time| *time > begin.0 - 1.5 * period)
+        .collect();
+    let each = (own.last()? - own.first()?) / (own.len() - 1) as f64;
+    let swings = (period / each).round();
+    (swings >= 1.0 && swings.is_finite()).then_some(Swing { frequency: swings / period, ..swing })
+}
+
 /// How well the last so many periods repeat each other \[%\]: the largest difference of amplitude or length from the last
 /// one's. Nothing where there are fewer.
 pub(super) fn repetition(times: &[f64], values: &[f64], periods: usize) -> Option<f64> {
@@ -163,6 +183,22 @@ mod tests {
     fn extremes_between_samples_are_found() {
         let swing = sampled(0.1, 400, |t| (TAU * t + 0.2).sin()).expect("periods");
         close(swing, [0.0, 1.0, 1.0], 6e-3);
+    }
+
+    /// Twice while the lead swings once, the second time lower: a period holds both.
+    #[test]
+    fn a_signal_that_swings_twice_is_taken_over_the_whole_period_of_its_lead() {
+        let times: Vec<f64> = (0..2000).map(|i| 0.005 * f64::from(i)).collect();
+        let lead: Vec<f64> = times.iter().map(|&t| (TAU * 1.2 * t).sin()).collect();
+        let values: Vec<f64> =
+            times.iter().map(|&t| 5.0 + (TAU * 2.4 * t).sin() + 0.2 * (TAU * 1.2 * t).sin()).collect();
+        let swing = last_period_with(&times, &values, &lead).expect("periods");
+        assert!((swing.frequency - 2.4).abs() < 2e-3, "{swing:?}");
+        let (low, high) = range(values.iter().copied()).expect("it swings");
+        assert!((swing.mean - 0.5 * (low + high)).abs() < 2e-3, "{swing:?}");
+        assert!((swing.amplitude - 0.5 * (high - low)).abs() < 2e-3, "{swing:?}");
+        assert_eq!(last_period_with(&times, &values, &times), None);
+        assert_eq!(last_period_with(&times, &times, &lead), None);
     }
 
     #[test]

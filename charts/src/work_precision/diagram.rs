@@ -141,7 +141,7 @@ fn place(across: &LogAxis, up: &LogAxis, point: &Point) -> [f64; 2] {
 fn law(fit: &Fit) -> String {
     /// A steeper curve is upright: its slope is the noise of the clock.
     const UPRIGHT: f64 = 30.0;
-    let factor = rounded(fit.digit_factor(), 2);
+    let factor = rounded(fit.digit_factor(), 3);
     if fit.slope().abs() > UPRIGHT || fit.decades_per_digit <= 0.0 {
         return "upright: a digit costs next to nothing".to_owned();
     }

@@ -11,9 +11,12 @@ use crate::nearest::nearest;
 #[serde(deny_unknown_fields)]
 pub(super) struct File {
     pub(super) title: String,
-    /// Read by those who write about the study.
+    /// What it is about, for those who write about it.
     #[serde(default, rename = "remark")]
     _remark: String,
+    /// Settings of other studies, `study, choice, refinement`, whose errors remain beside the ones here: for the same readers.
+    #[serde(default, rename = "beside")]
+    _beside: Vec<String>,
     pub(super) scene: Spanned<String>,
     #[serde(default)]
     pub(super) set: Vec<Spanned<String>>,

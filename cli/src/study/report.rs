@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use partita_charts::axis::rounded;
-use partita_charts::work_precision::{Curve, Diagram, FloorKind, Point, cheapest, most_accurate};
+use partita_charts::work_precision::{Curve, Diagram, FloorKind, Point, Trend, cheapest, most_accurate};
 
 use super::conduct::{Setting, Study};
 use super::error::MeasureError;
@@ -216,27 +216,7 @@ impl Report {
         let curves = self.curves();
         let mut text = String::new();
         for curve in &curves {
-            let trend = curve.trend(self.uncertainty);
-            let law = match trend.fit {
-                Some(fit) => format!(
-                    "a tenth of the error costs {} times the time (from {} settings over {} digits)",
-                    rounded(fit.digit_factor(), 2),
-                    fit.points,
-                    rounded(fit.digits(), 2)
-                ),
-                None => "too few settings tell what a digit costs".to_owned(),
-            };
-            line(&mut text, &format!("{}: {law}", curve.name));
-            if let Some(floor) = trend.floor {
-                let (from, error) = (&curve.points[floor.start].name, rounded(floor.error, 2));
-                let words = match floor.kind {
-                    FloorKind::OtherError => format!("from {from} on the error no longer falls: {error}"),
-                    FloorKind::Reference => {
-                        format!("from {from} on the reference is no better than the error: {error}")
-                    }
-                };
-                line(&mut text, &format!("    {words}"));
-            }
+            line(&mut text, &format!("{}: {}", curve.name, self.trend(curve)));
         }
         if self.uncertainty > 0.0 {
             line(&mut text, &format!("the reference is known to {}", rounded(self.uncertainty, 2)));
@@ -245,6 +225,36 @@ impl Report {
             line(&mut text, &self.choice(&curves, wanted));
         }
         text
+    }
+
+    /// What a digit costs on a curve, and where its error stops.
+    fn trend(&self, curve: &Curve) -> String {
+        let Trend { fit, floor } = curve.trend(self.uncertainty);
+        let law = fit.map(|fit| {
+            format!(
+                "a tenth of the error costs {} times the time (from {} settings over {} digits)",
+                rounded(fit.digit_factor(), 3),
+                fit.points,
+                rounded(fit.digits(), 2)
+            )
+        });
+        let floor = floor.map(|floor| {
+            let (from, error) = (&curve.points[floor.start].name, rounded(floor.error, 2));
+            match (floor.kind, floor.start) {
+                (FloorKind::OtherError, 0) => format!("refining does not change the error, {error}"),
+                (FloorKind::OtherError, _) => format!("from {from} on the error no longer falls: {error}"),
+                (FloorKind::Reference, 0) => format!("the reference is no better than the errors, {error}"),
+                (FloorKind::Reference, _) => {
+                    format!("from {from} on the reference is no better than the error: {error}")
+                }
+            }
+        });
+        let words: Vec<String> = law.into_iter().chain(floor).collect();
+        if words.is_empty() {
+            "too few settings tell what a digit costs".to_owned()
+        } else {
+            words.join("; ")
+        }
     }
 
     fn choice(&self, curves: &[Curve], wanted: f64) -> String {

@@ -11,7 +11,7 @@ use crate::task::{TaskError, captured, read, run, write};
 const FRAMES: usize = 40;
 
 /// Copies the run in `dir` beside it, goes on from its checkpoint for one period and writes fields: `fields/*.pvd` of the copy
-/// opens in ParaView. The run itself stays what it is.
+/// opens in `ParaView`. The run itself stays what it is.
 ///
 /// # Errors
 /// When the level has no period, or the copy cannot be made or run.

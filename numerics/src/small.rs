@@ -1,6 +1,6 @@
 //! Algebra of 1x1, 2x2 and 3x3 matrices as plain arrays, rows first: `a[i][j]`.
 //!
-//! What kernels on [`lanes`](crate::lanes) need is written for any [`Real`].
+//! What kernels on [`lanes`] need is written for any [`Real`].
 #![allow(
     clippy::inline_always,
     reason = "vector code has to be part of the entry point of its instruction set"

@@ -2,6 +2,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use partita_coupling::record::{IterationRecord, StepRecord};
+use partita_coupling::{Observer, RetryRecord};
 use partita_fluid::FluidSolver;
 use partita_structure::StructureSolver;
 
@@ -55,18 +57,35 @@ fn once(setting: &Resolved, column: &str, stop: &AtomicBool) -> Result<Option<Me
     let index = index.expect("the column was looked up when the study was read");
     let mut series = Series::default();
     let mut totals = Totals::default();
-    for _ in 0..scene.time.steps.get() {
+    let mut retries = Retries(0);
+    let sizes = scene.time.sizes();
+    while sizes.done(&run.clock()) < scene.time.steps.get() {
         if stop.load(Ordering::Relaxed) {
             return Ok(None);
         }
         let start = Stopwatch::start();
-        let record = run.step(scene.time.step.get(), &mut ())?;
+        let record = run.step_or_halve(&sizes, &mut retries)?;
+        // What was tried in vain is paid for, too.
         cpu_seconds += start.seconds();
         totals.add(&record);
         series.times.push(run.clock().time);
         series.values.push(probes.values(&run)[index]);
     }
+    totals.retries = retries.0;
     Ok(Some(Measured { series, cpu_seconds, unknowns: unknowns(&run), totals }))
+}
+
+/// Counts the steps that failed and were repeated in halves.
+struct Retries(usize);
+
+impl Observer for Retries {
+    fn iteration(&mut self, _: &IterationRecord) {}
+
+    fn step_finished(&mut self, _: &StepRecord) {}
+
+    fn step_retried(&mut self, _: &RetryRecord) {
+        self.0 += 1;
+    }
 }
 
 fn unknowns(run: &Run) -> usize {

@@ -12,7 +12,7 @@ use super::measure::Measured;
 use crate::output::table::{Cell, Table};
 
 /// Columns of the rows.
-pub(super) const COLUMNS: [&str; 15] = [
+pub(super) const COLUMNS: [&str; 16] = [
     "study",
     "setting",
     "error",
@@ -27,6 +27,7 @@ pub(super) const COLUMNS: [&str; 15] = [
     "newton_fluid",
     "newton_structure",
     "unconverged_steps",
+    "retries",
     "failure",
 ];
 
@@ -63,6 +64,8 @@ pub struct Numbers {
     pub newton_structure: usize,
     /// Steps that ended on the iteration bound.
     pub unconverged_steps: usize,
+    /// Steps that failed and were repeated in halves.
+    pub retries: usize,
 }
 
 impl Row {
@@ -84,6 +87,7 @@ impl Row {
             newton_fluid: totals.newton_fluid,
             newton_structure: totals.newton_structure,
             unconverged_steps: totals.unconverged_steps,
+            retries: totals.retries,
         };
         Self::new(study, setting, Ok(numbers))
     }
@@ -132,6 +136,7 @@ impl Row {
             count(&|numbers| numbers.newton_fluid),
             count(&|numbers| numbers.newton_structure),
             count(&|numbers| numbers.unconverged_steps),
+            count(&|numbers| numbers.retries),
             self.outcome.as_ref().err().map(String::as_str).into(),
         ]
     }

@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::program::{folder_with, partita};
 
 /// A cantilever under a pulse of its weight; Newton's method gets few iterations, too few for a whole step at the pulse.
-const BEAM: &str = r#"
+pub(crate) const BEAM: &str = r#"
 title = "Beam under a pulse"
 
 [time]

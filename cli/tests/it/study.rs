@@ -9,7 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use insta::assert_snapshot;
 use partita::study::{DIAGRAM, Manner, ROWS, Report, STUDY, Study, StudyFailure};
 
-use crate::program::{entries, partita};
+use crate::program::{entries, folder_with as folder_with_scene, partita};
+use crate::retry::BEAM;
 
 /// A cantilever under its own weight: small enough to be run again and again.
 const SCENE: &str = r#"title = "Cantilever"
@@ -208,4 +209,46 @@ fn the_program_prints_the_table_and_the_answer() {
     let foreign = partita(guard.path(), &["study", "bending.toml", "--quiet", "--force"]);
     assert_eq!(foreign.code, 2);
     assert_eq!(entries(&guard.path().join("runs/bending")), ["notes.txt", ROWS, DIAGRAM, STUDY]);
+}
+
+/// A setting that asks for halves gets them, as in a run of the scene; its neighbour without them fails.
+#[test]
+fn a_study_repeats_failed_steps_in_halves_where_the_scene_asks_for_it() {
+    let study = r#"title = "Pulse"
+scene = "case.toml"
+
+[quantity]
+name = "deflection of the tip"
+column = "tip_displacement_y"
+take = "history"
+
+[reference]
+set = ["time.step=0.0025", "time.steps=96"]
+
+[[choice]]
+name = "stops"
+refinements = [{ name = "dt = 0.02 s", set = [] }]
+
+[[choice]]
+name = "halves"
+set = ["time.retry.halvings=4"]
+refinements = [{ name = "dt = 0.02 s", set = [] }, { name = "dt = 0.0025 s", set = ["time.step=0.0025", "time.steps=96"] }]
+"#;
+    let (_guard, path) = folder_with_scene(BEAM);
+    let file = path.join("pulse.toml");
+    fs::write(&file, study).expect("the study is written");
+    let dir = path.join("out");
+    let report = conduct(&Study::load(&file).expect("sound"), &dir, usize::MAX).expect("it runs");
+    let [stops, halves, small] = &report.rows[..] else { panic!("{:?}", report.rows) };
+    assert!(stops.outcome.as_ref().is_err_and(|cause| cause.contains("structure")), "{stops:?}");
+    let numbers = halves.outcome.as_ref().expect("halved steps are small enough");
+    assert!(numbers.retries > 0 && numbers.steps > 12, "{numbers:?}");
+    assert!(numbers.error.is_finite() && numbers.error > 0.0, "{numbers:?}");
+    let small = small.outcome.as_ref().expect("small steps are solved");
+    assert_eq!((small.retries, small.steps, small.error), (0, 96, 0.0));
+    let rows = rows_in(&dir);
+    let header = rows.lines().next().expect("a header");
+    assert!(header.ends_with("unconverged_steps,retries,failure"), "{header}");
+    let halved = rows.lines().nth(2).expect("a row");
+    assert!(halved.ends_with(&format!(",0,{},", numbers.retries)), "{halved}");
 }

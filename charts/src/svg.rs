@@ -174,6 +174,8 @@ impl Colour {
 
     /// Light grey, for the lines of a grid.
     pub const PALE: Self = Self([224.0; 3]);
+    /// Nearly white, for what lies behind a grid.
+    pub const MIST: Self = Self([240.0; 3]);
     /// Colours that colour-blind readers tell apart (Okabe and Ito 2008).
     pub const LINES: [Self; 7] = [
         Self([0.0, 114.0, 178.0]),

@@ -1,6 +1,7 @@
 //! Error against cost: what was measured, what a further digit costs, and which setting is the cheapest.
 
 mod diagram;
+mod legend;
 mod trend;
 
 pub use diagram::Diagram;

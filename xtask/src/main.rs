@@ -8,6 +8,7 @@
     reason = "pages are put together once, where `write!` asks what to do when a String refuses text"
 )]
 
+mod accuracy;
 mod benchmark;
 mod beyond;
 mod ci;
@@ -48,6 +49,8 @@ Tasks:
     --mode MODE          write (default), or check: measure nothing, fail where the page differs from the data
   effects                run the beam in channel flow with effects switched on one by one, and without each of them
     --mode MODE          check (default): counts and errors as in docs/data/effects.csv, or write that and docs/effects.md
+  accuracy [STUDY]...    run the studies of accuracy against time (studies/), or some of them
+    --mode MODE          check (default): errors as in docs/data/accuracy.csv, or write that, docs/accuracy.md and its pictures
   infer                  search the values that the paper does not give, as paper/inference.md says; options
                          --mode, --jobs and --fresh as above
   sensitivity            judge the claims on cases with other values, write paper/results/sensitivity.csv
@@ -75,6 +78,7 @@ fn dispatch(arguments: &[&str]) -> Result<(), TaskError> {
         ["benchmark", options @ ..] => benchmark::run(root, options),
         ["performance", options @ ..] => performance::run(root, options),
         ["effects", options @ ..] => effects::run(root, options),
+        ["accuracy", options @ ..] => accuracy::run(root, options),
         ["infer", options @ ..] => infer::run(root, &Options::parse("infer", options)?),
         ["sensitivity", options @ ..] => sensitivity::run(root, &Options::parse("sensitivity", options)?),
         ["beyond", options @ ..] => beyond::run(root, &Options::parse("beyond", options)?),

@@ -1,7 +1,8 @@
 //! The work-precision diagram: error against CPU seconds, both on logarithmic axes.
 
-use super::{Curve, Fit, Point, cheapest};
-use crate::axis::{LogAxis, rounded};
+use super::legend::Legend;
+use super::{Curve, Point, cheapest};
+use crate::axis::LogAxis;
 use crate::svg::{Anchor, Colour, Dash, Svg};
 
 /// What is drawn.
@@ -26,30 +27,42 @@ const TOP: f64 = 44.0;
 const BOTTOM: f64 = 380.0;
 /// Below the axis and its name.
 const FOOT: f64 = 44.0;
-/// Height of a curve's two lines in the legend, and of any other entry.
-const ENTRY: f64 = 36.0;
-const LINE: f64 = 20.0;
 const SMALL: f64 = 11.0;
+/// A reference that is known to less than this part of the smallest error stands below the drawing.
+const FAR_BELOW: f64 = 0.1;
 
 impl Diagram<'_> {
     /// The drawing as SVG text; `None` where no point has both an error and a time.
     ///
-    /// Points on a floor are hollow, and the fitted law is drawn dashed through the others.
+    /// Points on a floor are hollow, and the fitted law is drawn dashed through the others. Errors that the reference does not
+    /// tell stand on grey.
     #[must_use]
     pub fn draw(&self) -> Option<String> {
         let points = || self.curves.iter().flat_map(|curve| &curve.points);
         let across = LogAxis::around(points().map(|point| point.cpu_seconds), [LEFT, RIGHT])?;
-        let up = LogAxis::around(points().map(|point| point.error).chain(self.wanted), [BOTTOM, TOP])?;
-        let legend = TOP + self.curves.len() as f64 * ENTRY + 3.0 * LINE;
-        let mut svg = Svg::new(WIDTH, BOTTOM.max(legend) + FOOT, self.title);
+        let errors = points().map(|point| point.error).chain(self.wanted);
+        let up = LogAxis::around(errors.chain(self.shown_uncertainty()), [BOTTOM, TOP])?;
+        let legend = Legend::new(self, [RIGHT + 20.0, TOP]);
+        let mut svg = Svg::new(WIDTH, (BOTTOM + FOOT).max(legend.bottom()), self.title);
         svg.text([LEFT, 24.0], 14.0, Anchor::Start, Colour::BLACK, self.title);
+        if let Some(uncertainty) = self.shown_uncertainty() {
+            let top = up.place(uncertainty);
+            svg.rectangle([LEFT, top], [RIGHT - LEFT, BOTTOM - top], Colour::MIST);
+        }
         frame(&mut svg, &across, &up, self.error);
         self.draw_wanted(&mut svg, &across, &up);
         for (curve, colour) in self.curves.iter().zip(Colour::LINES.into_iter().cycle()) {
             self.draw_curve(&mut svg, &across, &up, curve, colour);
         }
-        self.draw_legend(&mut svg);
+        legend.draw(&mut svg);
         Some(svg.finish())
+    }
+
+    /// How well the reference is known, unless that is far below all errors.
+    pub(super) fn shown_uncertainty(&self) -> Option<f64> {
+        let errors = self.curves.iter().flat_map(|curve| &curve.points).map(|point| point.error);
+        let smallest = errors.filter(|error| *error > 0.0).fold(f64::INFINITY, f64::min);
+        Some(self.uncertainty).filter(|uncertainty| *uncertainty > FAR_BELOW * smallest)
     }
 
     fn draw_wanted(&self, svg: &mut Svg, across: &LogAxis, up: &LogAxis) {
@@ -80,35 +93,6 @@ impl Diagram<'_> {
             svg.circle(place(across, up, point), 4.0, Some(fill), colour, 1.5);
         }
     }
-
-    fn draw_legend(&self, svg: &mut Svg) {
-        let (x, text) = (RIGHT + 20.0, RIGHT + 52.0);
-        let mut y = TOP + 12.0;
-        for (curve, colour) in self.curves.iter().zip(Colour::LINES.into_iter().cycle()) {
-            svg.path(&[[x, y - 4.0], [x + 24.0, y - 4.0]], colour, 2.0, Dash::None);
-            svg.circle([x + 12.0, y - 4.0], 4.0, Some(colour), colour, 1.5);
-            svg.text([text, y], 12.0, Anchor::Start, Colour::BLACK, &curve.name);
-            let law = curve.trend(self.uncertainty).fit.as_ref().map_or_else(|| "no law".to_owned(), law);
-            svg.text([text, y + 14.0], SMALL, Anchor::Start, Colour::GREY, &law);
-            y += ENTRY;
-        }
-        let mut note = |draw: &dyn Fn(&mut Svg, f64), words: &str| {
-            draw(svg, y - 4.0);
-            svg.text([text, y], SMALL, Anchor::Start, Colour::GREY, words);
-            y += LINE;
-        };
-        note(&|svg, y| svg.path(&[[x, y], [x + 24.0, y]], Colour::GREY, 2.0, Dash::Long), "fitted law");
-        note(
-            &|svg, y| svg.circle([x + 12.0, y], 4.0, Some(Colour::WHITE), Colour::GREY, 1.5),
-            "not fitted: the error has stopped falling",
-        );
-        if let Some(wanted) = self.wanted {
-            note(
-                &|svg, y| svg.path(&[[x, y], [x + 24.0, y]], Colour::GREY, 1.0, Dash::Dots),
-                &format!("wanted: {}; ringed: cheapest", rounded(wanted, 2)),
-            );
-        }
-    }
 }
 
 /// The box, its grid and its names.
@@ -135,17 +119,6 @@ fn is_shown(point: &Point) -> bool {
 
 fn place(across: &LogAxis, up: &LogAxis, point: &Point) -> [f64; 2] {
     [across.place(point.cpu_seconds), up.place(point.error)]
-}
-
-/// Slope and price of a digit, in the words of the legend.
-fn law(fit: &Fit) -> String {
-    /// A steeper curve is upright: its slope is the noise of the clock.
-    const UPRIGHT: f64 = 30.0;
-    let factor = rounded(fit.digit_factor(), 3);
-    if fit.slope().abs() > UPRIGHT || fit.decades_per_digit <= 0.0 {
-        return "upright: a digit costs next to nothing".to_owned();
-    }
-    format!("slope {}: a digit costs x {factor}", rounded(fit.slope(), 2))
 }
 
 #[cfg(test)]
@@ -183,10 +156,27 @@ mod tests {
             assert!(svg.contains(needed), "{needed} is not in the drawing");
         }
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
-        // Two legends, seven points with both numbers, the ring, the hollow one of the legend.
+        // Two legends, six points with both numbers, the ring, the hollow one of the legend.
         assert_eq!(svg.matches("<circle").count(), 2 + 6 + 1 + 1);
+        assert!(!svg.contains("known"), "an exact reference needs no word");
         well_formed(&svg);
         assert_eq!(diagram.draw(), Some(svg));
+    }
+
+    #[test]
+    fn what_the_reference_does_not_tell_stands_on_grey_unless_it_is_far_below() {
+        let curves = [curve("", &[(0.1, 1.0), (0.01, 10.0)])];
+        let drawn = |uncertainty| {
+            let diagram = Diagram { title: "", error: "", curves: &curves, uncertainty, wanted: None };
+            diagram.draw().expect("points")
+        };
+        let [exact, far, near, above] = [0.0, 9e-4, 2e-3, 0.05].map(drawn);
+        for (svg, grey) in [(&exact, 0), (&far, 0), (&near, 2), (&above, 2)] {
+            assert_eq!(svg.matches("#f0f0f0").count(), grey, "{svg}");
+        }
+        assert!(near.contains("the reference is known to 0.002"), "{near}");
+        assert!(far.contains("the reference is known to 9e-4") && !exact.contains("known"));
+        well_formed(&above);
     }
 
     /// Every element that is opened is closed, and every attribute can be read.

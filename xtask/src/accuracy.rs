@@ -29,7 +29,13 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
     let found = run::studies(root, &studies)?;
     match mode {
         Mode::Write => {
-            let rows = merged(kept(root).unwrap_or_default(), &studies, found);
+            // Where all are new, nothing that is kept matters, not even whether it can be read.
+            let others = if studies.len() < STUDIES.len() && root.join(DATA).exists() {
+                kept(root)?
+            } else {
+                Vec::new()
+            };
+            let rows = merged(others, &studies, found);
             task::write(&root.join(DATA), &row::to_csv(&rows).to_text())?;
             for (path, text) in files(root)? {
                 task::write(&root.join(path), &text)?;

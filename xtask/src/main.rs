@@ -55,7 +55,7 @@ Tasks:
                          --mode, --jobs and --fresh as above
   sensitivity            judge the claims on cases with other values, write paper/results/sensitivity.csv
   beyond                 run tables 1 and 2 with quadratic convergence, write docs/beyond-the-paper.md
-  ci [--skip NAME]...    run all that CI runs, in its order: test, fmt, clippy, doc, tidy, reproduce
+  ci [--skip NAME]...    run all that CI runs, in its order: test, fmt, clippy, doc, tidy, pages, accuracy, reproduce
 ";
 
 fn main() -> ExitCode {

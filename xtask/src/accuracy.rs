@@ -26,28 +26,31 @@ const PAGE: &str = "docs/accuracy.md";
 /// The task as its words say.
 pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
     let Options { mode, studies } = Options::parse(words)?;
-    let found = run::studies(root, &studies)?;
     match mode {
+        Mode::Page => write_pages(root),
         Mode::Write => {
+            let found = run::studies(root, &studies)?;
             // Where all are new, nothing that is kept matters, not even whether it can be read.
-            let others = if studies.len() < STUDIES.len() && root.join(DATA).exists() {
-                kept(root)?
-            } else {
-                Vec::new()
-            };
+            let is_part = studies.len() < STUDIES.len() && root.join(DATA).exists();
+            let others = if is_part { kept(root)? } else { Vec::new() };
             let rows = merged(others, &studies, found);
             task::write(&root.join(DATA), &row::to_csv(&rows).to_text())?;
-            for (path, text) in files(root)? {
-                task::write(&root.join(path), &text)?;
-            }
-            Ok(())
+            write_pages(root)
         }
         Mode::Check => {
+            let found = run::studies(root, &studies)?;
             let mut differing = differences(&kept(root)?, &studies, &found);
             differing.extend(stale(root)?);
             if differing.is_empty() { Ok(()) } else { Err(TaskError::Failed(differing.join("\n"))) }
         }
     }
+}
+
+fn write_pages(root: &Path) -> Result<(), TaskError> {
+    for (path, text) in files(root)? {
+        task::write(&root.join(path), &text)?;
+    }
+    Ok(())
 }
 
 /// Runs nothing; fails where page or pictures differ from what the data give.
@@ -59,7 +62,7 @@ pub(crate) fn check_pages(root: &Path) -> Result<(), TaskError> {
 fn stale(root: &Path) -> Result<Vec<String>, TaskError> {
     let differs = |(path, text): &(String, String)| task::read(&root.join(path)).ok().as_ref() != Some(text);
     let line =
-        |(path, _)| format!("{path} does not say what {DATA} says; `cargo xtask accuracy --mode write`");
+        |(path, _)| format!("{path} does not say what {DATA} says; `cargo xtask accuracy --mode page`");
     Ok(files(root)?.into_iter().filter(differs).map(line).collect())
 }
 
@@ -131,6 +134,12 @@ mod tests {
         let rows = kept(root).expect("the shipped rows");
         for name in STUDIES {
             assert!(rows.iter().any(|row| row.study == name), "{name} has no row in {DATA}");
+            for beside in Study::read(root, name).expect("a shipped study").beside {
+                assert!(
+                    rows.iter().any(|row| row.title() == beside),
+                    "{name}: {beside} has no row in {DATA}"
+                );
+            }
         }
     }
 

@@ -50,7 +50,8 @@ Tasks:
   effects                run the beam in channel flow with effects switched on one by one, and without each of them
     --mode MODE          check (default): counts and errors as in docs/data/effects.csv, or write that and docs/effects.md
   accuracy [STUDY]...    run the studies of accuracy against time (studies/), or some of them
-    --mode MODE          check (default): errors as in docs/data/accuracy.csv, or write that, docs/accuracy.md and its pictures
+    --mode MODE          check (default): errors as in docs/data/accuracy.csv, or write that, docs/accuracy.md and its
+                         pictures, or page: run nothing, write page and pictures from the data
   infer                  search the values that the paper does not give, as paper/inference.md says; options
                          --mode, --jobs and --fresh as above
   sensitivity            judge the claims on cases with other values, write paper/results/sensitivity.csv

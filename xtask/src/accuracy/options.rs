@@ -3,7 +3,7 @@
 use super::study::STUDIES;
 use crate::task::TaskError;
 
-const USAGE: &str = "Usage: cargo xtask accuracy [--mode write|check] [STUDY]...";
+const USAGE: &str = "Usage: cargo xtask accuracy [--mode check|write|page] [STUDY]...";
 
 /// What to do with what is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,6 +12,8 @@ pub(super) enum Mode {
     Write,
     /// Compare it with what is kept.
     Check,
+    /// Run nothing, but write page and pictures again: a remark has changed.
+    Page,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,7 +24,7 @@ pub(super) struct Options {
 }
 
 impl Options {
-    /// Reads `[--mode write|check] [STUDY]...` in any order; no study means all of them.
+    /// Reads `[--mode check|write|page] [STUDY]...` in any order; no study means all of them.
     pub(super) fn parse(words: &[&str]) -> Result<Self, TaskError> {
         let wrong = || TaskError::Usage { given: format!("accuracy {}", words.join(" ")), usage: USAGE };
         let (mut mode, mut asked) = (None, Vec::new());
@@ -33,6 +35,7 @@ impl Options {
                     mode = match rest.next() {
                         Some("write") => Some(Mode::Write),
                         Some("check") => Some(Mode::Check),
+                        Some("page") => Some(Mode::Page),
                         _ => return Err(wrong()),
                     };
                 }

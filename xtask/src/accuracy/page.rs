@@ -32,7 +32,7 @@ pub(super) fn markdown(findings: &[Findings]) -> String {
     text.push_str(&format!(
         "`cargo xtask accuracy` repeats everything and compares the errors with [data/accuracy.csv](data/accuracy.csv): they may \
          differ by {} % or {}, for another processor rounds otherwise. `--mode write` keeps what it finds and writes this page; \
-         names of studies behind it do so for these alone. A single study, with other settings if wanted, is \
+         names of studies behind it do so for these alone, and `--mode page` writes the page from the data. A single study, with other settings if wanted, is \
          `partita study studies/NAME.toml`.\n",
         rounded(100.0 * SAME, 2),
         rounded(NOTHING, 2)

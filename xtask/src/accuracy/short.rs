@@ -11,12 +11,13 @@ use crate::reproduce::markdown;
 /// The section `In short`.
 pub(super) fn section(findings: &[Findings]) -> String {
     let mut text = "\n## In short\n\n### What does one more digit cost?\n\n".to_owned();
-    for (is_of_tolerances, what) in
-        [(false, "Refining steps, elements or degree"), (true, "Tightening tolerances")]
-    {
-        let of = findings.iter().filter(|found| found.study.is_of_tolerances() == is_of_tolerances);
-        text.push_str(&price(what, &of.collect::<Vec<_>>()));
-    }
+    let of = |is_of_tolerances: bool| {
+        laws(findings.iter().filter(|found| found.study.is_of_tolerances() == is_of_tolerances))
+    };
+    let [refining, tightening] = [false, true].map(of);
+    text.push_str(&price("Refining steps, elements or degree", &refining));
+    text.push_str(&price("Tightening tolerances", &tightening));
+    text.push_str(&plainly(&refining, &tightening));
     text.push_str(&format!(
         "\nOnly curves with a law through at least {FIRM} settings count here. The cheapest setting for the error that each study \
          wants:\n\n"
@@ -29,26 +30,57 @@ pub(super) fn section(findings: &[Findings]) -> String {
     text
 }
 
-/// The least, the middle and the largest price of a digit.
-fn price(what: &str, findings: &[&Findings]) -> String {
-    let mut laws: Vec<(String, Fit)> = Vec::new();
+/// A law and the curve that it is of.
+type Law = (String, Fit);
+
+/// The firm laws of studies, from the cheapest digit to the dearest.
+fn laws<'a>(findings: impl Iterator<Item = &'a Findings>) -> Vec<Law> {
+    let mut laws = Vec::new();
     for found in findings {
         let named = |(choice, fit)| (format!("{}: {choice}", found.study.name), fit);
         laws.extend(found.firm_laws().into_iter().map(named));
     }
     laws.sort_by(|(_, a), (_, b)| a.decades_per_digit.total_cmp(&b.decades_per_digit));
-    let (Some((least, cheap)), Some((most, dear))) = (laws.first(), laws.last()) else {
+    laws
+}
+
+/// The law in the middle, of two the cheaper one, so that it is a law one can look up.
+fn middle(laws: &[Law]) -> Option<&Fit> {
+    laws.get(laws.len().saturating_sub(1) / 2).map(|(_, fit)| fit)
+}
+
+/// The least, the middle and the largest price of a digit.
+fn price(what: &str, laws: &[Law]) -> String {
+    let (Some((least, cheap)), Some(middle), Some((most, dear))) = (laws.first(), middle(laws), laws.last())
+    else {
         return format!("* {what}: no study has a law.\n");
     };
-    // The lower of the two in the middle, so that it is a law one can look up.
-    let middle = &laws[(laws.len() - 1) / 2].1;
     format!(
-        "* **{what}: one more digit costs {}** ({least}) **to {} times the processor time** ({most}); {} in the middle of {} \
-         curves.\n",
+        "* **{what}: one more digit costs {} to {} times the processor time**, {} times in the middle of {} curves. It is \
+         cheapest in {least}, and dearest in {most}.\n",
         cost(cheap),
         cost(dear),
         cost(middle),
         laws.len()
+    )
+}
+
+/// What to do, where the prices of the two kinds tell.
+fn plainly(refining: &[Law], tightening: &[Law]) -> String {
+    /// The dearer kind costs this many times the other.
+    const CLEARLY: f64 = 2.0;
+    let (Some(refining), Some(tightening)) = (middle(refining), middle(tightening)) else {
+        return String::new();
+    };
+    if refining.digit_factor() < CLEARLY * tightening.digit_factor() {
+        return String::new();
+    }
+    format!(
+        "* Put plainly: a digit that multiplies the time by {} through finer steps and elements multiplies it by {} through \
+         tighter tolerances. Tolerances are to be tight enough not to matter; time is to be spent on steps and elements, and \
+         saved by better schemes.\n",
+        cost(refining),
+        cost(tightening)
     )
 }
 
@@ -98,6 +130,12 @@ fn looseness(found: &Findings) -> String {
     let header = ["choice", "loosest setting", "error it adds", "CPU [s]", "the tightest setting takes"];
     let lines: Vec<Vec<String>> = found.loosest(bound).into_iter().map(line).collect();
     text.push_str(&markdown::prose_table(&header, &lines));
+    let time = |row: &Row| row.cpu_seconds.unwrap_or(f64::INFINITY);
+    let loosest = found.loosest(bound).into_iter().filter_map(|loosest| loosest.row);
+    if let Some(best) = loosest.min_by(|a, b| time(a).total_cmp(&time(b))) {
+        let words = format!("{}, {}", best.choice, best.setting);
+        text.push_str(&format!("\nThe cheapest of these is **{words}**, in {} s.\n", seconds(best)));
+    }
     text
 }
 
@@ -115,13 +153,37 @@ mod tests {
         let text = section(&[made()]);
         for needed in [
             "* Refining steps, elements or degree: no study has a law.",
-            "* **Tightening tolerances: one more digit costs 100** (made: steps) **to 100 times the processor time**",
+            "* **Tightening tolerances: one more digit costs 100 to 100 times the processor time**, 100 times in the middle of 1",
+            "It is cheapest in made: steps, and dearest in made: steps.",
             "| [made](#made) | x 100 | 0.01 | tolerance, level 1 | 0.002 | 1.1 |",
             "leave errors of 0.05 (other, A, coarse). A tolerance that adds less than a tenth of the smallest of these, 0.005,",
             "| steps | none | - | - | level 3: 0.64 s |",
             "| tolerance | level 1 | 0.002 | 1.1 | level 3: 1.3 s |",
+            "The cheapest of these is **tolerance, level 1**, in 1.1 s.",
         ] {
             assert!(text.contains(needed), "{needed} is not in\n{text}");
         }
+    }
+
+    /// One digit for 100 times the time by refining, for 1.1 times by tightening; the reverse says nothing.
+    #[test]
+    fn the_plain_word_stands_where_the_prices_differ() {
+        let law = |decades_per_digit| Fit { offset: 0.0, decades_per_digit, points: 4, errors: [0.1, 0.01] };
+        let [dear, cheap] = [2.0, 0.041_39].map(|decades| vec![(String::new(), law(decades))]);
+        let words = plainly(&dear, &cheap);
+        assert!(
+            words.contains("multiplies the time by 100 through finer") && words.contains("by 1.1 through"),
+            "{words}"
+        );
+        assert_eq!(plainly(&cheap, &dear) + &plainly(&dear, &dear) + &plainly(&[], &cheap), "");
+    }
+
+    #[test]
+    fn laws_stand_in_their_order_and_the_middle_is_one_of_them() {
+        let law = |decades_per_digit| Fit { offset: 0.0, decades_per_digit, points: 4, errors: [0.1, 0.01] };
+        let laws: Vec<Law> = [0.1, 0.5, 1.0, 2.0].map(|decades| (String::new(), law(decades))).to_vec();
+        assert_eq!(middle(&laws), Some(&law(0.5)));
+        assert_eq!(middle(&laws[..3]), Some(&law(0.5)));
+        assert_eq!(middle(&[]), None);
     }
 }

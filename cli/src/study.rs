@@ -31,7 +31,8 @@
 //! ```
 //!
 //! [`Study::load`] reads it and builds every setting once, so that nothing is run or written before all of them are sound;
-//! [`Study::conduct`] runs them. Every row goes to the system as soon as it is measured.
+//! [`Study::conduct`] runs them. Every row goes to the system as soon as it is measured. A step that fails is repeated in halves
+//! where the setting's scene has `[time.retry]`; what was tried in vain counts in the time.
 
 mod conduct;
 mod error;

@@ -46,7 +46,7 @@ pub(super) fn markdown(findings: &[Findings]) -> String {
 
 fn section(found: &Findings) -> String {
     let Study { name, title, remark, scene, .. } = &found.study;
-    let mut text = format!("\n## {name}\n\n**{title}.** {}\n\n", remark.trim());
+    let mut text = format!("\n## {name}\n\n**{title}**\n\n{}\n\n", remark.trim());
     text.push_str(&format!(
         "The settings are in [studies/{name}.toml](../studies/{name}.toml), the scene is [{}]({scene}/README.md).\n\n",
         scene.rsplit('/').next().unwrap_or(scene)
@@ -171,7 +171,7 @@ mod tests {
     fn a_section_has_the_diagram_the_table_and_the_law_in_words() {
         let text = markdown(&[made()]);
         for needed in [
-            "## made\n\n**Made: steps.** Made data.",
+            "## made\n\n**Made: steps**\n\nMade data.",
             "![Made: steps](figures/accuracy-made.svg)",
             "The cheapest setting for an error of 0.01 is **tolerance, level 1**: error 0.002 in 1.1 s.",
             "* steps: one more digit costs 100 times the processor time (slope -0.5, 4 settings over 0.9 digits).",

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! cargo bench -p partita-fluid --bench performance -- parts 70 faer   # a Newton iteration, part by part
+//! cargo bench -p partita-fluid --bench performance -- threads 70      # its factorization by two threads, beside one
 //! cargo bench -p partita-fluid --bench performance -- step 70         # a whole time step
 //! ```
 //!
@@ -33,8 +34,9 @@ fn main() {
     match words[..] {
         ["parts", divisions] => parts(size(divisions), false),
         ["parts", divisions, "faer"] => parts(size(divisions), true),
+        ["threads", divisions] => threads(size(divisions)),
         ["step", divisions] => step(size(divisions)),
-        _ => eprintln!("performance: say `parts N`, `parts N faer` or `step N`"),
+        _ => eprintln!("performance: say `parts N`, `parts N faer`, `threads N` or `step N`"),
     }
 }
 
@@ -44,9 +46,9 @@ fn milliseconds(work: impl FnOnce()) -> f64 {
     start.elapsed().as_secs_f64() * 1e3
 }
 
-fn row(part: &str, dofs: usize, milliseconds: f64, ratio: Option<f64>) {
+fn row(part: &str, (dofs, threads): (usize, usize), milliseconds: f64, ratio: Option<f64>) {
     let ratio = ratio.map_or_else(String::new, |ratio| format!("{ratio:.3}"));
-    println!("{part},{dofs},1,{milliseconds:.4},{ratio}");
+    println!("{part},{dofs},{threads},{milliseconds:.4},{ratio}");
 }
 
 /// Median of as many runs as fit into the budget, and at least three.
@@ -68,17 +70,18 @@ type Work = fn(&mut Contender);
 struct Contender {
     fluid: FluidSolver<2>,
     factor: Factor,
+    threads: usize,
     solution: Vec<f64>,
 }
 
 impl Contender {
-    fn new(divisions: usize, method: Method) -> Self {
+    fn new(divisions: usize, method: Method, threads: usize) -> Self {
         let mut fluid = tank(divisions);
         fluid.assemble(true).expect("an assembly");
         let (pattern, _) = fluid.tangent();
-        let factor = Factor::new(method, pattern).expect("memory suffices");
+        let factor = Factor::with_threads(method, pattern, threads).expect("memory suffices");
         let solution = vec![1.0; pattern.size()];
-        Self { fluid, factor, solution }
+        Self { fluid, factor, threads, solution }
     }
 
     fn dofs(&self) -> usize {
@@ -90,7 +93,8 @@ impl Contender {
     }
 
     fn analyse(&mut self) {
-        self.factor = Factor::new(self.factor.method(), self.fluid.tangent().0).expect("memory suffices");
+        let (method, pattern) = (self.factor.method(), self.fluid.tangent().0);
+        self.factor = Factor::with_threads(method, pattern, self.threads).expect("memory suffices");
     }
 
     fn refactor(&mut self) {
@@ -110,19 +114,21 @@ impl Contender {
     }
 }
 
+/// What is compared.
+const WORKS: [(&str, Work); 3] = [
+    ("refactor", Contender::refactor),
+    ("solve", Contender::solve),
+    ("newton iteration", Contender::newton_iteration),
+];
+
 /// Assembly, analysis, factorization, solution, and a whole Newton iteration, beside faer's LU where asked for.
 fn parts(divisions: usize, with_faer: bool) {
-    let mut ours = Contender::new(divisions, Method::NodeBlockLu);
-    let mut faer = with_faer.then(|| Contender::new(divisions, Method::Lu));
-    let dofs = ours.dofs();
+    let mut ours = Contender::new(divisions, Method::NodeBlockLu, 1);
+    let mut faer = with_faer.then(|| Contender::new(divisions, Method::Lu, 1));
+    let dofs = (ours.dofs(), 1);
     row("assembly", dofs, median(|| ours.assemble()), None);
     row("analysis", dofs, milliseconds(|| ours.analyse()), None);
-    let works: [(&str, Work); 3] = [
-        ("refactor", Contender::refactor),
-        ("solve", Contender::solve),
-        ("newton iteration", Contender::newton_iteration),
-    ];
-    for (part, work) in works {
+    for (part, work) in WORKS {
         let (own, ratio) = match &mut faer {
             None => (median(|| work(&mut ours)), None),
             Some(faer) => {
@@ -136,6 +142,17 @@ fn parts(divisions: usize, with_faer: bool) {
     }
 }
 
+/// A factorization by one thread and by two, in turns.
+fn threads(divisions: usize) {
+    let [mut one, mut two] = [1, 2].map(|threads| Contender::new(divisions, Method::NodeBlockLu, threads));
+    for (part, work) in WORKS {
+        let once = milliseconds(|| work(&mut one)) + milliseconds(|| work(&mut two));
+        let medians = alternate(rounds(once), || work(&mut one), || work(&mut two));
+        row(part, (one.dofs(), 1), medians.first, None);
+        row(part, (two.dofs(), 2), medians.second, None);
+    }
+}
+
 /// A time step with a moving bottom, to convergence, and the memory it needs.
 fn step(divisions: usize) {
     let mut fluid = tank(divisions);
@@ -146,7 +163,7 @@ fn step(divisions: usize) {
         fluid.advance(Limit::ToConvergence).expect("convergence");
         fluid.commit();
     });
-    row("fluid step", dofs, elapsed, None);
+    row("fluid step", (dofs, 1), elapsed, None);
     let megabytes =
         |bytes: Option<usize>| bytes.map_or_else(String::new, |bytes| format!("{:.1}", bytes as f64 / 1e6));
     println!("memory,{dofs},{},{}", megabytes(fluid.factor_bytes()), megabytes(peak_bytes()));

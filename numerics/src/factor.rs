@@ -80,10 +80,19 @@ impl Factor {
     ///
     /// If memory does not suffice.
     pub fn new(method: Method, pattern: &Pattern) -> Result<Self, FactorError> {
+        Self::with_threads(method, pattern, 1)
+    }
+
+    /// Like [`new`](Self::new), for a number of threads.
+    ///
+    /// # Errors
+    ///
+    /// If memory does not suffice.
+    pub fn with_threads(method: Method, pattern: &Pattern, threads: usize) -> Result<Self, FactorError> {
         let backend = match method {
             _ if pattern.size() == 0 => Backend::Empty,
             Method::Lu => Backend::Lu(Box::new(Lu::new(pattern)?)),
-            Method::NodeBlockLu => Backend::NodeBlockLu(Box::new(NodeBlockLu::new(pattern)?)),
+            Method::NodeBlockLu => Backend::NodeBlockLu(Box::new(NodeBlockLu::new(pattern, threads)?)),
             Method::Llt => Backend::Cholesky(Box::new(Cholesky::new(cholesky::Kind::Llt, pattern)?)),
             Method::Ldlt => Backend::Cholesky(Box::new(Cholesky::new(cholesky::Kind::Ldlt, pattern)?)),
         };

@@ -9,6 +9,9 @@
 //! right-hand side ─────────────────────── solve         down and up the same tree
 //! ```
 //!
+//! Separate subtrees can be eliminated at the same time. Which thread gets which is decided with the rest, and every sum is
+//! taken in one order, so that the numbers are those of one thread, bit for bit.
+//!
 //! Pivots are exchanged only inside the diagonal block of a front, where the largest growth would come from; this keeps
 //! the structure static. It is enough for stabilized flow and elasticity. It is not for every matrix, so that
 //! whoever uses this has to look at the outcome.
@@ -21,68 +24,58 @@ mod aligned;
 mod blocks;
 mod kernels;
 mod layout;
+mod numbering;
 mod numeric;
 mod ordering;
 mod solve;
+mod split;
 mod symbolic;
 mod tree;
-
-use std::slice;
+mod worker;
 
 use super::FactorError;
 use crate::Pattern;
 use blocks::Blocks;
-use kernels::NoPivot;
-use numeric::Numeric;
-use solve::SolveSpace;
+use split::Split;
 use symbolic::Symbolic;
+use worker::{Stuck, Worker};
 
-/// Symbolic and numeric factor with the work space of both phases.
+/// Symbolic factor, and numeric factors with the work space of both phases.
 pub(super) struct Multifrontal {
     symbolic: Symbolic,
-    numeric: Numeric,
-    space: SolveSpace,
+    /// One for each share of the tree, the top last.
+    workers: Vec<Worker>,
 }
 
 impl Multifrontal {
-    pub(super) fn new(pattern: &Pattern) -> Result<Self, FactorError> {
+    /// The number of threads decides who does what, and nothing about the numbers.
+    pub(super) fn new(pattern: &Pattern, threads: usize) -> Result<Self, FactorError> {
         let out_of_memory = || FactorError::OutOfMemory { equations: pattern.size() };
         // Indices of the hot loops have 32 bits.
         u32::try_from(pattern.nonzeros()).map_err(|_| out_of_memory())?;
         let blocks = Blocks::new(pattern);
         let tree = ordering::tree(&blocks, pattern.size()).ok_or_else(out_of_memory)?;
-        let symbolic = Symbolic::new(pattern, &blocks, &tree);
-        let numeric = Numeric::new(&symbolic).ok_or_else(out_of_memory)?;
-        let space = SolveSpace::new(&symbolic).ok_or_else(out_of_memory)?;
-        Ok(Self { symbolic, numeric, space })
+        let split = Split::new(&tree.parent, &tree.operations, threads);
+        let symbolic = Symbolic::new(pattern, &blocks, &tree, &split);
+        let workers = symbolic.shares.iter().map(|share| Worker::new(&symbolic, share));
+        let workers = workers.collect::<Option<_>>().ok_or_else(out_of_memory)?;
+        Ok(Self { symbolic, workers })
     }
 
     /// Factors the matrix with these values and replaces `rhs` by the solution, or names an equation whose block has no
     /// pivot left.
     pub(super) fn refactor_and_solve(&mut self, values: &[f64], rhs: &mut [f64]) -> Result<(), FactorError> {
-        let Self { symbolic, numeric, space } = self;
-        space.load(symbolic, rhs);
-        for front in &symbolic.fronts {
-            numeric.eliminate(symbolic, front, values).map_err(|NoPivot(column)| FactorError::Singular {
-                equation: Some(symbolic.equations[front.first + column] as usize),
-            })?;
-            // The sweep down the tree reads L while it is in the cache.
-            space.forward(symbolic, numeric, slice::from_ref(front));
-        }
-        space.backward(symbolic, numeric);
-        space.store(symbolic, rhs);
-        Ok(())
+        let Self { symbolic, workers } = self;
+        worker::refactor_and_solve(symbolic, workers, values, rhs).map_err(|Stuck(pivot)| {
+            FactorError::Singular { equation: Some(symbolic.equations[pivot] as usize) }
+        })
     }
 
     pub(super) fn factor_bytes(&self) -> usize {
-        size_of_val(&*self.numeric.factors) + size_of_val(&*self.numeric.interchanges)
+        self.workers.iter().map(Worker::factor_bytes).sum()
     }
 
     pub(super) fn solve(&mut self, rhs: &mut [f64]) {
-        let Self { symbolic, numeric, space } = self;
-        space.load(symbolic, rhs);
-        space.forward(symbolic, numeric, &symbolic.fronts);
-        space.backward(symbolic, numeric);
-        space.store(symbolic, rhs);
+        worker::solve(&self.symbolic, &mut self.workers, rhs);
     }
 }

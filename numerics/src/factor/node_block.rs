@@ -14,9 +14,13 @@ pub(super) struct NodeBlockLu {
     fallbacks: usize,
 }
 
+/// Up to this many equations a second thread costs more than it is worth, or as much.
+const SPLIT_ABOVE: usize = 10_000;
+
 impl NodeBlockLu {
-    pub(super) fn new(pattern: &Pattern) -> Result<Self, FactorError> {
-        Ok(Self { fast: Multifrontal::new(pattern)?, safe: None, fell_back: false, fallbacks: 0 })
+    pub(super) fn new(pattern: &Pattern, threads: usize) -> Result<Self, FactorError> {
+        let threads = if pattern.size() > SPLIT_ABOVE { threads } else { 1 };
+        Ok(Self { fast: Multifrontal::new(pattern, threads)?, safe: None, fell_back: false, fallbacks: 0 })
     }
 
     /// Tries the fast way, whatever happened before: the outcome must not depend on earlier matrices.

@@ -1,41 +1,55 @@
 //! The numeric phase: fronts are assembled and eliminated from the leaves to the roots.
+//!
+//! A front adds up the contributions of its children in one order, whoever eliminated them.
 
 use pulp::Arch;
 
 use super::aligned::Aligned;
 use super::kernels::{Eliminate, NoPivot, Scratch};
 use super::layout::{Layout, Parts, padded};
-use super::symbolic::{Entry, Front, Run, Symbolic, wide};
+use super::symbolic::{Entry, Front, Run, Share, Symbolic, wide};
 
-/// The factors of all fronts, and the room in which they come about.
+/// The factors of the fronts of one share, and the room in which they come about.
 pub(super) struct Numeric {
     pub(super) arch: Arch,
-    pub(super) factors: Aligned,
+    factors: Aligned,
     /// For each pivot, the row of its front's diagonal block that was taken for it.
-    pub(super) interchanges: Vec<u32>,
+    interchanges: Vec<u32>,
     stacks: [Aligned; 2],
     scratch: Scratch,
 }
 
 impl Numeric {
     /// Nothing if memory does not suffice.
-    pub(super) fn new(symbolic: &Symbolic) -> Option<Self> {
-        let [even, odd] = symbolic.stack_len;
+    pub(super) fn new(symbolic: &Symbolic, share: &Share) -> Option<Self> {
+        let [even, odd] = share.stack_len;
         Some(Self {
             arch: Arch::new(),
-            factors: Aligned::zeros(symbolic.factor_len)?,
-            interchanges: vec![0; symbolic.equations.len()],
+            factors: Aligned::zeros(share.factor_len)?,
+            interchanges: vec![0; share.pivots],
             stacks: [Aligned::zeros(even)?, Aligned::zeros(odd)?],
             scratch: Scratch::new(symbolic.widest()),
         })
     }
 
-    /// Assembles and eliminates a front whose children are done.
-    pub(super) fn eliminate(
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&*self.factors) + size_of_val(&*self.interchanges)
+    }
+
+    /// The factor of a front of this share, and the interchanges of its pivots.
+    pub(super) fn of(&self, front: &Front) -> (&[f64], &[u32]) {
+        let Layout { pivots, .. } = front.layout;
+        let factor = &self.factors[front.factor..front.factor + front.layout.factor_len()];
+        (factor, &self.interchanges[front.pivots..front.pivots + pivots])
+    }
+
+    /// Assembles and eliminates a front whose children are done, in this share or in one of the `others`.
+    pub(super) fn eliminate<'a>(
         &mut self,
         symbolic: &Symbolic,
         front: &Front,
         values: &[f64],
+        others: impl Fn(usize) -> &'a Self,
     ) -> Result<(), NoPivot> {
         let layout = front.layout;
         let factor = &mut self.factors[front.factor..front.factor + layout.factor_len()];
@@ -46,16 +60,22 @@ impl Numeric {
         for &Entry { slot, place } in &symbolic.entries[front.entries.clone()] {
             factor[place as usize] = values[slot as usize];
         }
-        let children = || wide(&front.children, &symbolic.children).map(|child| &symbolic.fronts[child]);
-        for child in children() {
-            let child = Contribution::of(child, symbolic, childrens);
+        let contributions = || {
+            wide(&front.children, &symbolic.children).map(|child| {
+                let child = &symbolic.fronts[child];
+                let is_own = child.share == front.share;
+                let stack = if is_own { &**childrens } else { &others(child.share).stacks[child.side] };
+                Contribution::of(child, symbolic, stack)
+            })
+        };
+        for child in contributions() {
             child.add_to_pivots(layout, &mut layout.parts_mut(factor));
         }
-        let interchanges = &mut self.interchanges[front.first..front.first + layout.pivots];
+        let interchanges = &mut self.interchanges[front.pivots..front.pivots + layout.pivots];
         Eliminate { layout, factor, contribution, interchanges, scratch: &mut self.scratch }
             .run(self.arch)?;
-        for child in children() {
-            Contribution::of(child, symbolic, childrens).add_below(layout, contribution);
+        for child in contributions() {
+            child.add_below(layout, contribution);
         }
         Ok(())
     }

@@ -19,7 +19,8 @@ pub(super) fn tree(blocks: &Blocks, equations: usize) -> Option<Tree> {
         return Some(dissected);
     }
     let other = Tree::new(blocks, &minimum_degree(blocks)?);
-    Some(if dissected.operations < other.operations { dissected } else { other })
+    let cost = |tree: &Tree| tree.operations.iter().sum::<f64>();
+    Some(if cost(&dissected) < cost(&other) { dissected } else { other })
 }
 
 fn minimum_degree(blocks: &Blocks) -> Option<Vec<usize>> {
@@ -45,6 +46,7 @@ fn with_graph(
 #[cfg(test)]
 mod tests {
     use super::super::layout::Layout;
+    use super::super::split::Split;
     use super::super::symbolic::Symbolic;
     use super::*;
     use crate::{Connectivity, DofMap, Pattern};
@@ -71,7 +73,8 @@ mod tests {
         let hash = order.iter().fold(0xCBF2_9CE4_8422_2325_u64, |hash, &block| {
             (hash ^ block as u64).wrapping_mul(0x0100_0000_01B3)
         });
-        let symbolic = Symbolic::new(pattern, &blocks, &Tree::new(&blocks, &order));
+        let tree = Tree::new(&blocks, &order);
+        let symbolic = Symbolic::new(pattern, &blocks, &tree, &Split::none(tree.parent.len()));
         let entries = |&Layout { pivots, rest }: &Layout| pivots * pivots + 2 * pivots * rest;
         let entries: usize = symbolic.fronts.iter().map(|front| entries(&front.layout)).sum();
         format!("{} fronts, {entries} entries, {hash:016x}", symbolic.fronts.len())

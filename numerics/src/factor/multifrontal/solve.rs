@@ -9,47 +9,66 @@ use pulp::{Simd, WithSimd};
 use super::aligned::Aligned;
 use super::layout::{Layout, padded};
 use super::numeric::Numeric;
-use super::symbolic::{Front, Symbolic, wide};
+use super::symbolic::{Front, Share, Symbolic, wide};
 
-/// Work vectors of a solution.
+/// Work vectors of a solution, for the fronts of one share.
 pub(super) struct SolveSpace {
-    /// The right-hand side in the order of elimination.
+    /// The right-hand side in the order of elimination. Of other shares it holds what was copied here.
     permuted: Vec<f64>,
     /// The rows below the pivots of one front.
     below: Aligned,
+    /// What the fronts subtract from rows of other shares, where nothing may be changed before its turn.
+    outside: Vec<f64>,
 }
 
 impl SolveSpace {
     /// Nothing if memory does not suffice.
-    pub(super) fn new(symbolic: &Symbolic) -> Option<Self> {
+    pub(super) fn new(symbolic: &Symbolic, share: &Share) -> Option<Self> {
         Some(Self {
             permuted: vec![0.0; symbolic.equations.len()],
             below: Aligned::zeros(symbolic.widest())?,
+            outside: vec![0.0; share.outside],
         })
     }
 
-    /// Takes in a right-hand side.
-    pub(super) fn load(&mut self, symbolic: &Symbolic, rhs: &[f64]) {
-        for (value, &equation) in self.permuted.iter_mut().zip(&symbolic.equations) {
-            *value = rhs[equation as usize];
+    /// Takes in the right-hand side of a share.
+    pub(super) fn load(&mut self, symbolic: &Symbolic, share: &Share, rhs: &[f64]) {
+        for pivots in share.fronts(symbolic).map(Front::range) {
+            for (value, &equation) in self.permuted[pivots.clone()].iter_mut().zip(&symbolic.equations[pivots]) {
+                *value = rhs[equation as usize];
+            }
         }
     }
 
-    /// Hands out the solution.
+    /// Hands out the solution on all rows.
     pub(super) fn store(&self, symbolic: &Symbolic, solution: &mut [f64]) {
         for (value, &equation) in self.permuted.iter().zip(&symbolic.equations) {
             solution[equation as usize] = *value;
         }
     }
 
-    /// The way down, through these fronts; those before them have to be done.
-    pub(super) fn forward(&mut self, symbolic: &Symbolic, numeric: &Numeric, fronts: &[Front]) {
-        numeric.arch.dispatch(Forward(Sweep { space: self, symbolic, numeric }, fronts));
+    /// The way down through a front, whose children have to be done.
+    pub(super) fn forward(&mut self, symbolic: &Symbolic, numeric: &Numeric, front: &Front) {
+        numeric.arch.dispatch(Forward(Sweep { space: self, symbolic, numeric }, front));
     }
 
-    /// The way up, through all fronts.
-    pub(super) fn backward(&mut self, symbolic: &Symbolic, numeric: &Numeric) {
-        numeric.arch.dispatch(Backward(Sweep { space: self, symbolic, numeric }));
+    /// The way up, through all fronts of a share. Rows of other shares have to be there.
+    pub(super) fn backward(&mut self, symbolic: &Symbolic, numeric: &Numeric, share: &Share) {
+        numeric.arch.dispatch(Backward(Sweep { space: self, symbolic, numeric }, share));
+    }
+
+    /// Takes over what the way down through a front of another share has left: its own pivots, and what it subtracts.
+    pub(super) fn receive(&mut self, symbolic: &Symbolic, front: &Front, other: &Self) {
+        self.copy_pivots(front, other);
+        let rows = front.rows.start + front.inside..front.rows.end;
+        for (row, value) in wide(&rows, &symbolic.rows).zip(&other.outside[front.outside..]) {
+            self.permuted[row] -= *value;
+        }
+    }
+
+    /// Takes over the pivots of a front.
+    pub(super) fn copy_pivots(&mut self, front: &Front, other: &Self) {
+        self.permuted[front.range()].copy_from_slice(&other.permuted[front.range()]);
     }
 }
 
@@ -59,27 +78,25 @@ struct Sweep<'a> {
     numeric: &'a Numeric,
 }
 
-struct Forward<'a>(Sweep<'a>, &'a [Front]);
+struct Forward<'a>(Sweep<'a>, &'a Front);
 
 impl WithSimd for Forward<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
-        for front in self.1 {
-            self.0.forward(simd, front);
-        }
+        self.0.forward(simd, self.1);
     }
 }
 
-struct Backward<'a>(Sweep<'a>);
+struct Backward<'a>(Sweep<'a>, &'a Share);
 
 impl WithSimd for Backward<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
-        for front in self.0.symbolic.fronts.iter().rev() {
+        for front in self.1.fronts(self.0.symbolic).rev() {
             self.0.backward(simd, front);
         }
     }
@@ -90,10 +107,10 @@ impl Sweep<'_> {
     #[inline(always)]
     fn forward<S: Simd>(&mut self, simd: S, front: &Front) {
         let Layout { pivots, rest } = front.layout;
-        let factor = &self.numeric.factors[front.factor..front.factor + front.layout.factor_len()];
+        let (factor, interchanges) = self.numeric.of(front);
         let parts = front.layout.parts(factor);
-        let x = &mut self.space.permuted[front.first..front.first + pivots];
-        for (pivot, &taken) in self.numeric.interchanges[front.first..][..pivots].iter().enumerate() {
+        let x = &mut self.space.permuted[front.range()];
+        for (pivot, &taken) in interchanges.iter().enumerate() {
             x.swap(pivot, taken as usize);
         }
         for (k, column) in parts.diagonal.chunks_exact(padded(pivots)).enumerate() {
@@ -108,23 +125,25 @@ impl Sweep<'_> {
         let below = &mut self.space.below[..padded(rest)];
         below.fill(0.0);
         add_product(simd, parts.lower, x, below);
-        for (row, value) in wide(&front.rows, &self.symbolic.rows).zip(below) {
+        let (inside, outside) = below[..rest].split_at(front.inside);
+        for (row, value) in wide(&front.rows, &self.symbolic.rows).zip(inside) {
             self.space.permuted[row] -= *value;
         }
+        self.space.outside[front.outside..][..outside.len()].copy_from_slice(outside);
     }
 
     /// x := `U_D`^-1 (x - U y) on the pivots, with the solution y on the rows below.
     #[inline(always)]
     fn backward<S: Simd>(&mut self, simd: S, front: &Front) {
         let Layout { pivots, rest } = front.layout;
-        let factor = &self.numeric.factors[front.factor..front.factor + front.layout.factor_len()];
+        let (factor, _) = self.numeric.of(front);
         let parts = front.layout.parts(factor);
         let below = &mut self.space.below[..padded(rest)];
         for (row, value) in wide(&front.rows, &self.symbolic.rows).zip(below.iter_mut()) {
             *value = self.space.permuted[row];
         }
         below[rest..].fill(0.0);
-        let x = &mut self.space.permuted[front.first..front.first + pivots];
+        let x = &mut self.space.permuted[front.range()];
         if rest > 0 {
             subtract_transposed_product(simd, parts.upper, below, x);
         }

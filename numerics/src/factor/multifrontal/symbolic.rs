@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use super::blocks::Blocks;
 use super::layout::{Layout, padded};
+use super::numbering::{Numbering, rows_below};
+use super::split::Split;
 use super::tree::Tree;
 use crate::Pattern;
 
@@ -23,10 +25,22 @@ pub(super) struct Symbolic {
     pub(super) entries: Vec<Entry>,
     /// Where contributions go, see [`Front::runs`].
     pub(super) runs: Vec<Run>,
-    /// Numbers in the factors of all fronts.
+    /// What each thread eliminates, and last what is left at the top of the tree.
+    pub(super) shares: Vec<Share>,
+}
+
+/// Fronts that one thread eliminates, and the room that takes.
+#[derive(Default)]
+pub(super) struct Share {
+    /// In postorder.
+    pub(super) fronts: Vec<u32>,
+    /// Numbers in their factors.
     pub(super) factor_len: usize,
+    pub(super) pivots: usize,
     /// Numbers in the two stacks of contributions.
     pub(super) stack_len: [usize; 2],
+    /// Rows of its fronts that are pivots of other shares.
+    pub(super) outside: usize,
 }
 
 /// The dense matrix in which one supernode is eliminated.
@@ -34,9 +48,12 @@ pub(super) struct Front {
     /// The first pivot; the others follow it.
     pub(super) first: usize,
     pub(super) layout: Layout,
-    /// Where its factor starts.
+    /// Who eliminates it, and where it stands there: its factor, its pivots, and what it leaves to rows of other shares.
+    pub(super) share: usize,
     pub(super) factor: usize,
-    /// Where the contribution to its parent starts in the stack [`side`](Self::side).
+    pub(super) pivots: usize,
+    pub(super) outside: usize,
+    /// Where the contribution to its parent starts in the stack [`side`](Self::side) of its share.
     pub(super) contribution: usize,
     /// Fronts at an even depth use one stack, those at an odd depth the other. A front then reads the contributions of
     /// its children from the top of one stack while it builds its own on top of the other, and nothing is moved.
@@ -44,6 +61,8 @@ pub(super) struct Front {
     pub(super) children: Range<usize>,
     /// Its rows below the pivots, as pivots of the fronts above, ascending.
     pub(super) rows: Range<usize>,
+    /// How many of them are pivots of its own share. Those of other shares are higher up in the tree, so they come last.
+    pub(super) inside: usize,
     pub(super) entries: Range<usize>,
     /// How its rows lie in its parent; the runs among the parent's pivots end at `split`.
     pub(super) runs: Range<usize>,
@@ -67,6 +86,19 @@ pub(super) struct Run {
     pub(super) len: u32,
 }
 
+impl Front {
+    /// Its pivots.
+    pub(super) fn range(&self) -> Range<usize> {
+        self.first..self.first + self.layout.pivots
+    }
+}
+
+impl Share {
+    pub(super) fn fronts<'a>(&'a self, symbolic: &'a Symbolic) -> impl DoubleEndedIterator<Item = &'a Front> {
+        self.fronts.iter().map(|&front| &symbolic.fronts[front as usize])
+    }
+}
+
 /// Indices are stored as 32 bits: half the traffic of the hot loops.
 pub(super) fn narrow(index: usize) -> u32 {
     u32::try_from(index).expect("the factorization checks that its indices fit into 32 bits")
@@ -77,7 +109,7 @@ pub(super) fn wide(range: &Range<usize>, list: &[u32]) -> impl Iterator<Item = u
 }
 
 impl Symbolic {
-    pub(super) fn new(pattern: &Pattern, blocks: &Blocks, tree: &Tree) -> Self {
+    pub(super) fn new(pattern: &Pattern, blocks: &Blocks, tree: &Tree, split: &Split) -> Self {
         let numbering = Numbering::new(blocks, tree, pattern.size());
         let mut symbolic = Self {
             equations: numbering.equations.iter().map(|&equation| narrow(equation)).collect(),
@@ -86,57 +118,74 @@ impl Symbolic {
             rows: Vec::new(),
             entries: Vec::new(),
             runs: Vec::new(),
-            factor_len: 0,
-            stack_len: [0; 2],
+            shares: (0..split.shares).map(|_| Share::default()).collect(),
         };
         let rows = rows_below(blocks, tree, &numbering);
-        symbolic.add_fronts(tree, &numbering, &rows);
+        symbolic.add_fronts(tree, &numbering, &rows, split);
         symbolic.place_contributions(tree);
         symbolic.map_contributions(tree);
         symbolic.map_entries(pattern, &numbering);
         symbolic
     }
 
-    fn add_fronts(&mut self, tree: &Tree, numbering: &Numbering, rows: &[Vec<usize>]) {
+    /// The share that comes after all others, which is the whole tree for one thread.
+    pub(super) fn top(&self) -> &Share {
+        self.shares.last().expect("a top")
+    }
+
+    fn add_fronts(&mut self, tree: &Tree, numbering: &Numbering, rows: &[Vec<usize>], split: &Split) {
         let mut children: Vec<Vec<usize>> = vec![Vec::new(); rows.len()];
+        let end_of_share = ends_of_shares(tree, numbering, split);
         for (front, rows) in rows.iter().enumerate() {
             let (first, end) = (numbering.first[front], numbering.first[front + 1]);
             let layout = Layout { pivots: end - first, rest: rows.len() };
             let own_children = self.children.len()..self.children.len() + children[front].len();
             self.children.extend(children[front].iter().map(|&child| narrow(child)));
+            let share = &mut self.shares[split.share[front]];
+            let inside = rows.partition_point(|&row| row < end_of_share[front]);
             self.fronts.push(Front {
                 first,
                 layout,
-                factor: self.factor_len,
+                share: split.share[front],
+                factor: share.factor_len,
+                pivots: share.pivots,
+                outside: share.outside,
                 contribution: 0,
                 side: 0,
                 children: own_children,
                 rows: self.rows.len()..self.rows.len() + rows.len(),
+                inside,
                 entries: 0..0,
                 runs: 0..0,
                 split: 0,
             });
             self.rows.extend(rows.iter().map(|&row| narrow(row)));
-            self.factor_len += layout.factor_len();
+            share.fronts.push(narrow(front));
+            share.factor_len += layout.factor_len();
+            share.pivots += layout.pivots;
+            share.outside += rows.len() - inside;
             if let Some(parent) = tree.parent[front] {
                 children[parent].push(front);
             }
         }
     }
 
-    /// Stack positions; both stacks are empty again at each root.
+    /// Stack positions. Both stacks of a share are empty again at each root, but for what the roots of its subtrees leave to
+    /// another share, which stays.
     fn place_contributions(&mut self, tree: &Tree) {
         for front in (0..self.fronts.len()).rev() {
             self.fronts[front].side = tree.parent[front].map_or(0, |parent| 1 - self.fronts[parent].side);
         }
-        let mut top = [0; 2];
+        let mut tops = vec![[0; 2]; self.shares.len()];
         for front in 0..self.fronts.len() {
+            let Front { side, layout, share, .. } = self.fronts[front];
             // The children's contributions are on top of the other stack, and go when this front is done.
-            let first_child = wide(&self.fronts[front].children, &self.children).next();
-            let Front { side, layout, .. } = self.fronts[front];
+            let first_child = wide(&self.fronts[front].children, &self.children)
+                .find(|&child| self.fronts[child].share == share);
+            let (top, stack_len) = (&mut tops[share], &mut self.shares[share].stack_len);
             self.fronts[front].contribution = top[side];
             top[side] += layout.contribution_len();
-            self.stack_len[side] = self.stack_len[side].max(top[side]);
+            stack_len[side] = stack_len[side].max(top[side]);
             if let Some(child) = first_child {
                 top[1 - side] = self.fronts[child].contribution;
             }
@@ -208,63 +257,17 @@ impl Symbolic {
     }
 }
 
-/// The order of elimination, equation by equation.
-struct Numbering {
-    /// The equation of each pivot.
-    equations: Vec<usize>,
-    /// The pivot of each equation.
-    pivots: Vec<usize>,
-    /// The first pivot of each supernode, and the number of pivots.
-    first: Vec<usize>,
-}
-
-impl Numbering {
-    fn new(blocks: &Blocks, tree: &Tree, size: usize) -> Self {
-        let mut equations = Vec::with_capacity(size);
-        let mut first = vec![0];
-        for members in &tree.members {
-            equations.extend(members.iter().flat_map(|&block| blocks.equations(block)));
-            first.push(equations.len());
-        }
-        let mut pivots = vec![0; size];
-        for (pivot, &equation) in equations.iter().enumerate() {
-            pivots[equation] = pivot;
-        }
-        Self { equations, pivots, first }
+/// For each front, the first pivot behind the subtree that its share got; at the top, behind all.
+fn ends_of_shares(tree: &Tree, numbering: &Numbering, split: &Split) -> Vec<usize> {
+    let mut ends = vec![usize::MAX; tree.parent.len()];
+    for front in (0..ends.len()).rev() {
+        ends[front] = match tree.parent[front] {
+            Some(parent) if split.share[parent] == split.share[front] => ends[parent],
+            Some(_) => numbering.first[front + 1],
+            None => usize::MAX,
+        };
     }
-
-    /// The first pivot of a block; a block's equations follow each other.
-    fn of_block(&self, blocks: &Blocks, block: usize) -> usize {
-        self.pivots[blocks.equations(block)[0]]
-    }
-}
-
-/// The rows below the pivots of each supernode: its blocks' neighbours and its children's rows that come later.
-fn rows_below(blocks: &Blocks, tree: &Tree, numbering: &Numbering) -> Vec<Vec<usize>> {
-    let mut later: Vec<Vec<usize>> = vec![Vec::new(); tree.members.len()];
-    let mut rows = Vec::with_capacity(tree.members.len());
-    let mut seen = vec![usize::MAX; blocks.len()];
-    for (supernode, members) in tree.members.iter().enumerate() {
-        let end = numbering.first[supernode + 1];
-        // So far what the children left here.
-        let mut own = std::mem::take(&mut later[supernode]);
-        own.extend(members.iter().flat_map(|&block| blocks.neighbours(block)));
-        own.retain(|&block| {
-            let is_new = seen[block] != supernode && numbering.of_block(blocks, block) >= end;
-            seen[block] = supernode;
-            is_new
-        });
-        own.sort_unstable_by_key(|&block| numbering.of_block(blocks, block));
-        let expanded = own.iter().flat_map(|&block| {
-            let first = numbering.of_block(blocks, block);
-            first..first + blocks.equations(block).len()
-        });
-        rows.push(expanded.collect());
-        if let Some(parent) = tree.parent[supernode] {
-            later[parent].extend(own);
-        }
-    }
-    rows
+    ends
 }
 
 /// Adds runs of targets that follow each other; the first target belongs to row `from`.

@@ -8,8 +8,8 @@ pub(super) struct Tree {
     pub(super) members: Vec<Vec<usize>>,
     /// The supernode that takes up what is left of each one; nothing at the roots.
     pub(super) parent: Vec<Option<usize>>,
-    /// What the elimination costs, about.
-    pub(super) operations: f64,
+    /// What the elimination of each supernode costs, about.
+    pub(super) operations: Vec<f64>,
 }
 
 impl Tree {
@@ -148,7 +148,7 @@ fn supernodes(tree: &Elimination, order: &[usize], merged: &Merged) -> Tree {
     }
     let parent = postorder.iter().map(|&node| tree.parent[node].map(|parent| number[last[parent]])).collect();
     let costs = postorder.iter().map(|&node| operations(merged.pivots[node], tree.below[node]));
-    Tree { members, parent, operations: costs.sum() }
+    Tree { members, parent, operations: costs.collect() }
 }
 
 /// Multiplications and additions of the elimination of a dense front: 2/3 p^3 + 2 p^2 q + 2 p q^2.

@@ -46,10 +46,18 @@ pub enum BuildError {
 ///
 /// # Errors
 /// When the parts of the scene do not fit together.
-pub fn run(Resolved { scene, shapes, .. }: &Resolved) -> Result<Run, BuildError> {
+pub fn run(resolved: &Resolved) -> Result<Run, BuildError> {
+    run_on(resolved, 1)
+}
+
+/// The run of a scene with its large linear systems solved by this many threads, which changes no number.
+///
+/// # Errors
+/// When the parts of the scene do not fit together.
+pub fn run_on(Resolved { scene, shapes, .. }: &Resolved, threads: usize) -> Result<Run, BuildError> {
     let fluid = scene.fluid.as_ref().zip(shapes.fluid.clone());
     let moves = scene.moves_the_interface();
-    let fluid = fluid.map(|(scene, mesh)| fluid::solver(scene, mesh, moves)).transpose()?;
+    let fluid = fluid.map(|(scene, mesh)| fluid::solver(scene, mesh, moves, threads)).transpose()?;
     let structure = scene.structure.as_ref().zip(shapes.structure.clone());
     let structure = structure.map(|(scene, space)| structure::solver(scene, space)).transpose()?;
     let (settings, transfers) = match (&scene.coupling, &fluid, &structure) {

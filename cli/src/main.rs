@@ -128,7 +128,12 @@ fn stop_when_interrupted() {
 
 fn options(manner: &Manner) -> Options<'static> {
     stop_when_interrupted();
-    Options { steps: manner.steps.map(Into::into), quiet: manner.quiet, stop: Some(&STOP) }
+    Options {
+        steps: manner.steps.map(Into::into),
+        quiet: manner.quiet,
+        stop: Some(&STOP),
+        threads: Some(manner.threads),
+    }
 }
 
 fn finish(session: Session<'_>, dir: &Path, manner: &Manner) -> Result<ExitCode, Failure> {

@@ -1,6 +1,7 @@
 //! A run from its first step, or its checkpoint, to its end: the time loop, and what is written on the way.
 
 use std::error::Error;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -29,6 +30,14 @@ pub struct Options<'a> {
     pub quiet: bool,
     /// Set from outside to stop at the end of the step.
     pub stop: Option<&'a AtomicBool>,
+    /// How many threads solve large linear systems, one if nothing is said; no result depends on it.
+    pub threads: Option<NonZeroUsize>,
+}
+
+impl Options<'_> {
+    fn threads(&self) -> usize {
+        self.threads.map_or(1, NonZeroUsize::get)
+    }
 }
 
 /// Why a run could not go on.
@@ -104,7 +113,7 @@ impl<'a> Session<'a> {
         options: Options<'a>,
         clock: Clock,
     ) -> Result<Self, RunError> {
-        let run = build::run(resolved)?;
+        let run = build::run_on(resolved, options.threads())?;
         let scene = &resolved.scene;
         let probes = Probes::new(&scene.output.probes, &run);
         let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
@@ -129,7 +138,7 @@ impl<'a> Session<'a> {
         clock: Clock,
     ) -> Result<Self, RunError> {
         let checkpoint = checkpoint::load::<RunState>(dir)?;
-        let mut run = build::run(resolved)?;
+        let mut run = build::run_on(resolved, options.threads())?;
         checkpoint.state.restore(&mut run, resolved)?;
         let scene = &resolved.scene;
         let probes = Probes::new(&scene.output.probes, &run);

@@ -3,7 +3,7 @@
 //! ```text
 //! cargo bench -p partita-fluid --bench performance -- parts 70 faer   # a Newton iteration, part by part
 //! cargo bench -p partita-fluid --bench performance -- threads 70      # its factorization by two threads, beside one
-//! cargo bench -p partita-fluid --bench performance -- step 70         # a whole time step
+//! cargo bench -p partita-fluid --bench performance -- step 70 2       # a whole time step, by two threads
 //! ```
 //!
 //! The size is the number of divisions a side, n, for about 6 n^2 equations. Lines to stdout are
@@ -21,7 +21,7 @@ use partita_numerics::newton::{Limit, Problem};
 use partita_numerics::{Factor, Method};
 
 use alternating::alternate;
-use tank::{displacement, tank};
+use tank::{displacement, tank, tank_for};
 
 /// What one measurement may take.
 const BUDGET: Duration = Duration::from_secs(3);
@@ -35,8 +35,11 @@ fn main() {
         ["parts", divisions] => parts(size(divisions), false),
         ["parts", divisions, "faer"] => parts(size(divisions), true),
         ["threads", divisions] => threads(size(divisions)),
-        ["step", divisions] => step(size(divisions)),
-        _ => eprintln!("performance: say `parts N`, `parts N faer`, `threads N` or `step N`"),
+        ["step", divisions] => step(size(divisions), 1),
+        ["step", divisions, threads] => step(size(divisions), size(threads)),
+        _ => {
+            eprintln!("performance: say `parts N`, `parts N faer`, `threads N`, `step N` or `step N THREADS`")
+        }
     }
 }
 
@@ -148,14 +151,14 @@ fn threads(divisions: usize) {
     for (part, work) in WORKS {
         let once = milliseconds(|| work(&mut one)) + milliseconds(|| work(&mut two));
         let medians = alternate(rounds(once), || work(&mut one), || work(&mut two));
-        row(part, (one.dofs(), 1), medians.first, None);
         row(part, (two.dofs(), 2), medians.second, None);
+        eprintln!("{part}: {:.2} times as fast as by one thread, in turns", medians.ratio());
     }
 }
 
 /// A time step with a moving bottom, to convergence, and the memory it needs.
-fn step(divisions: usize) {
-    let mut fluid = tank(divisions);
+fn step(divisions: usize, threads: usize) {
+    let mut fluid = tank_for(divisions, threads);
     let dofs = fluid.tangent().0.size();
     let moved = displacement(&fluid);
     let elapsed = milliseconds(|| {
@@ -163,7 +166,11 @@ fn step(divisions: usize) {
         fluid.advance(Limit::ToConvergence).expect("convergence");
         fluid.commit();
     });
-    row("fluid step", (dofs, 1), elapsed, None);
+    row("fluid step", (dofs, threads), elapsed, None);
+    if threads > 1 {
+        // Memory is told of one thread, to compare with.
+        return;
+    }
     let megabytes =
         |bytes: Option<usize>| bytes.map_or_else(String::new, |bytes| format!("{:.1}", bytes as f64 / 1e6));
     println!("memory,{dofs},{},{}", megabytes(fluid.factor_bytes()), megabytes(peak_bytes()));

@@ -66,6 +66,10 @@ pub struct FluidSettings {
     pub mesh_slide: Vec<String>,
     /// Needed exactly where velocity is prescribed all round and nothing moves.
     pub pressure_pin: Option<PressurePin>,
+    /// How many threads factor and solve the linear systems; no bit of any result depends on it.
+    ///
+    /// Up to 10 000 unknowns there is one in any case. See [`Factor::with_threads`](partita_numerics::Factor::with_threads).
+    pub threads: usize,
 }
 
 impl Default for FluidSettings {
@@ -80,6 +84,7 @@ impl Default for FluidSettings {
             motion: MotionSettings::default(),
             mesh_slide: Vec::new(),
             pressure_pin: None,
+            threads: 1,
         }
     }
 }

@@ -96,7 +96,7 @@ impl<const D: usize> FluidSolver<D> {
         boundary::check(&mesh, &model, &settings)?;
         let boundaries = Boundaries::new(&mesh, &model, &settings)?;
         let assembly = Assembly::new(mesh.cells(), &boundaries.prescribed);
-        let factor = Factor::new(Method::NodeBlockLu, &assembly.pattern)?;
+        let factor = Factor::with_threads(Method::NodeBlockLu, &assembly.pattern, settings.threads)?;
         let motion = match &boundaries.mesh_prescribed {
             Some(prescribed) => Some(MeshMotion::new(&mesh, settings.motion, prescribed)?),
             None => None,

@@ -10,7 +10,8 @@ use partita_numerics::time::BdfOrder;
 use super::{BuildError, newton};
 use crate::scene::schema;
 
-/// The solver of a scene's fluid on `mesh`, at its initial state; `moves` tells whether its interface does.
+/// The solver of a scene's fluid on `mesh`, at its initial state; `moves` tells whether its interface does, and `threads` how
+/// many solve its linear systems.
 ///
 /// # Errors
 /// When mesh, conditions and settings do not fit together.
@@ -18,8 +19,9 @@ pub(super) fn solver(
     fluid: &schema::Fluid,
     mesh: Mesh<2>,
     moves: bool,
+    threads: usize,
 ) -> Result<FluidSolver<2>, BuildError> {
-    let settings = settings(fluid, &mesh);
+    let settings = settings(fluid, &mesh, threads);
     Ok(FluidSolver::new(mesh, model(fluid, moves), settings)?)
 }
 
@@ -60,7 +62,7 @@ fn boundary(condition: &schema::Condition, moves: bool) -> BoundaryCondition<2> 
     }
 }
 
-fn settings(fluid: &schema::Fluid, mesh: &Mesh<2>) -> FluidSettings {
+fn settings(fluid: &schema::Fluid, mesh: &Mesh<2>, threads: usize) -> FluidSettings {
     FluidSettings {
         time: match fluid.time_scheme {
             schema::FluidTimeScheme::Bdf1 => TimeScheme::Bdf(BdfOrder::One),
@@ -82,6 +84,7 @@ fn settings(fluid: &schema::Fluid, mesh: &Mesh<2>) -> FluidSettings {
             node: nearest_node(mesh, pin.point.map(schema::Real::get)),
             pressure: pin.value.get(),
         }),
+        threads,
     }
 }
 

@@ -180,7 +180,14 @@ fn what_is_no_run_cannot_be_resumed() {
 
 #[test]
 fn wrong_arguments_exit_2() {
-    for arguments in [&[][..], &["run"], &["walk", "case.toml"], &["run", "case.toml", "--steps", "0"]] {
+    let refused: [&[&str]; 5] = [
+        &[],
+        &["run"],
+        &["walk", "case.toml"],
+        &["run", "case.toml", "--steps", "0"],
+        &["run", "case.toml", "--threads", "0"],
+    ];
+    for arguments in refused {
         let outcome = partita(Path::new("."), arguments);
         assert_eq!(outcome.code, 2, "{arguments:?}: {}", outcome.stderr);
         assert!(
@@ -279,7 +286,8 @@ fn a_scene_that_was_changed_is_not_resumed_but_a_longer_one_is() {
     assert_eq!(outcome.code, 2);
     assert!(outcome.stderr.contains("`viscosity = 200.0` is"), "{}", outcome.stderr);
     fs::write(&file, scene.replace("steps = 50", "steps = 60")).expect("a longer scene");
-    let outcome = partita(&folder, &["resume", "out", "--steps", "3"]);
+    // The number of threads is no part of the scene.
+    let outcome = partita(&folder, &["resume", "out", "--steps", "3", "--threads", "2"]);
     assert_eq!(outcome.code, 0, "{}", outcome.stderr);
     assert!(outcome.stderr.contains("stopped after step 3; go on with `partita resume out`"));
 }

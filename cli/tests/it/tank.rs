@@ -223,7 +223,7 @@ fn one_field_alone_runs_in_the_same_loop() {
 }
 
 fn start<'a>(tank: &'a Resolved, dir: &Path, steps: Option<usize>) -> Session<'a> {
-    let options = Options { steps, quiet: true, stop: None };
+    let options = Options { steps, quiet: true, ..Options::default() };
     Session::start(tank, dir, options, Clock::start()).expect("the run starts")
 }
 

@@ -7,6 +7,11 @@ use partita_mesh::generate::{Diagonal, RectangleMesh, rectangle};
 
 /// A tank in the first step of a run, with its bottom in motion: 400 triangles for 10 divisions, 663 dofs.
 pub(crate) fn tank(divisions: usize) -> FluidSolver<2> {
+    tank_for(divisions, 1)
+}
+
+/// The same for a number of threads.
+pub(crate) fn tank_for(divisions: usize, threads: usize) -> FluidSolver<2> {
     let mesh = RectangleMesh {
         origin: [0.0; 2],
         size: [1.0; 2],
@@ -27,7 +32,8 @@ pub(crate) fn tank(divisions: usize) -> FluidSolver<2> {
         boundary: conditions.map(|(group, condition)| (group.to_string(), condition)).to_vec(),
         initial: InitialState::Velocity(Arc::new(|x: &[f64; 2], _| [x[1] * (1.0 - x[1]), x[0]])),
     };
-    let mut fluid = FluidSolver::new(mesh, model, FluidSettings::default()).expect("a fluid");
+    let mut fluid = FluidSolver::new(mesh, model, FluidSettings { threads, ..FluidSettings::default() })
+        .expect("a fluid");
     fluid.begin_step(0.01, 0.01).expect("a step");
     fluid.impose(&displacement(&fluid)).expect("a motion");
     fluid

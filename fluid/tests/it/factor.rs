@@ -3,10 +3,10 @@
 use partita_fluid::{BodyForce, BoundaryCondition, FluidModel, FluidSettings, FluidSolver, InitialState};
 use partita_mesh::Mesh;
 use partita_mesh::generate::{Diagonal, RectangleMesh, rectangle};
-use partita_numerics::newton::Problem;
+use partita_numerics::newton::{Limit, Problem};
 use partita_numerics::{Connectivity, DofMap, Factor, Method, Pattern, Scatter};
 
-use crate::common::{Numbers, boundary, field};
+use crate::common::{Numbers, boundary, field, unit_square};
 
 /// A channel of length one, `aspect` times as long as high: so stretched are its elements.
 fn channel(aspect: f64) -> Mesh<2> {
@@ -98,4 +98,29 @@ fn tangents_of_all_flows_are_factored_to_round_off_without_fallback() {
             }
         }
     }
+}
+
+#[test]
+fn threads_change_no_bit_of_a_step() {
+    let bits = |threads| {
+        let model = FluidModel {
+            density: 1.0,
+            viscosity: 1e-3,
+            body_force: BodyForce::Constant([0.0; 2]),
+            boundary: boundary(&[
+                ("left", BoundaryCondition::Velocity(field(|x: &[f64; 2], _| [x[1] * (1.0 - x[1]), 0.0]))),
+                ("right", BoundaryCondition::StressFree { backflow: false }),
+                ("bottom", BoundaryCondition::NoSlip),
+                ("top", BoundaryCondition::NoSlip),
+            ]),
+            initial: InitialState::Rest,
+        };
+        let settings = FluidSettings { threads, ..FluidSettings::default() };
+        let mut fluid = FluidSolver::new(unit_square(43), model, settings).expect("a fluid");
+        assert!(fluid.tangent().0.size() > 10_000, "too small for a second thread");
+        fluid.begin_step(0.1, 0.1).expect("a step");
+        fluid.advance(Limit::AtMost(2)).expect("two iterations");
+        fluid.values().iter().map(|value| value.to_bits()).collect::<Vec<_>>()
+    };
+    assert!(bits(1) == bits(2), "two threads change the flow");
 }

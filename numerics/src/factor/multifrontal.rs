@@ -30,6 +30,8 @@ mod ordering;
 mod solve;
 mod split;
 mod symbolic;
+#[cfg(test)]
+mod tests;
 mod tree;
 mod worker;
 

@@ -14,12 +14,15 @@ pub(super) struct NodeBlockLu {
     fallbacks: usize,
 }
 
-/// Up to this many equations a second thread costs more than it is worth, or as much.
+/// Up to this many equations the start of threads takes up most of what they save.
 const SPLIT_ABOVE: usize = 10_000;
+
+/// More threads would wait for the top of the tree, and each takes room.
+const MOST_THREADS: usize = 16;
 
 impl NodeBlockLu {
     pub(super) fn new(pattern: &Pattern, threads: usize) -> Result<Self, FactorError> {
-        let threads = if pattern.size() > SPLIT_ABOVE { threads } else { 1 };
+        let threads = if pattern.size() > SPLIT_ABOVE { threads.min(MOST_THREADS) } else { 1 };
         Ok(Self { fast: Multifrontal::new(pattern, threads)?, safe: None, fell_back: false, fallbacks: 0 })
     }
 

@@ -84,6 +84,22 @@ fn node_block_lu_refactors_and_solves_without_allocating() {
 }
 
 #[test]
+fn several_threads_allocate_nothing_but_their_start() {
+    let flow = Flow { viscosity: 1e-3, dt: 1e-2, velocity: [1.0, 0.5] };
+    let system = grid::flow(62, flow, true);
+    let mut factor = Factor::with_threads(Method::NodeBlockLu, &system.pattern, 2).unwrap();
+    factor.refactor(&system.values).unwrap();
+    let mut rhs = vec![1.0; system.pattern.size()];
+    let start = allocations(|| {
+        std::thread::scope(|scope| drop(std::thread::Builder::new().spawn_scoped(scope, || ()).unwrap()));
+    });
+    // One thread is started for the way down the tree, and one for the way up.
+    assert!(start > 0);
+    assert_eq!(allocations(|| factor.refactor(&system.values).unwrap()), 2 * start);
+    assert_eq!(allocations(|| factor.solve(&mut rhs)), 2 * start);
+}
+
+#[test]
 fn assembly_does_not_allocate() {
     let system = grid::elasticity(5, 0.3, true);
     let triangles = Connectivity::from_nodes(3, &grid::triangles(5), 2);

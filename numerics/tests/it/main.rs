@@ -6,3 +6,4 @@ mod factor;
 mod grid;
 mod node_block;
 mod random;
+mod threads;

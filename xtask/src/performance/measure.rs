@@ -14,6 +14,9 @@ use crate::task::{TaskError, captured, cargo, read, remove_folder, run};
 const PARTS: [usize; 5] = [10, 29, 70, 129, 223];
 /// Those whose whole step and memory are measured.
 const STEPS: [usize; 5] = [13, 41, 129, 223, 408];
+/// Those whose iteration and whose step are measured for two threads, too.
+const PARTS_OF_TWO: [usize; 3] = [70, 129, 223];
+const STEPS_OF_TWO: [usize; 2] = [223, 408];
 /// Up to here faer's LU is measured beside ours.
 const FAER: usize = 129;
 /// The paper's scenes, and the steps of each.
@@ -34,6 +37,12 @@ pub(super) fn all(root: &Path, largest: usize) -> Result<Data, TaskError> {
     }
     for divisions in STEPS.into_iter().filter(fits) {
         bench(root, &mut data, &["step", &divisions.to_string()])?;
+    }
+    for divisions in PARTS_OF_TWO.into_iter().filter(fits) {
+        bench(root, &mut data, &["threads", &divisions.to_string()])?;
+    }
+    for divisions in STEPS_OF_TWO.into_iter().filter(fits) {
+        bench(root, &mut data, &["step", &divisions.to_string(), "2"])?;
     }
     let binary = crate::task::release_binary(root)?;
     for (scene, steps) in SCENES {

@@ -34,7 +34,9 @@ impl SolveSpace {
     /// Takes in the right-hand side of a share.
     pub(super) fn load(&mut self, symbolic: &Symbolic, share: &Share, rhs: &[f64]) {
         for pivots in share.fronts(symbolic).map(Front::range) {
-            for (value, &equation) in self.permuted[pivots.clone()].iter_mut().zip(&symbolic.equations[pivots]) {
+            for (value, &equation) in
+                self.permuted[pivots.clone()].iter_mut().zip(&symbolic.equations[pivots])
+            {
                 *value = rhs[equation as usize];
             }
         }

@@ -113,8 +113,8 @@ mod tests {
         // Its halves cost 10 each, and its root nothing to speak of.
         let split = Split::new(&PARENT, &[10.0, 10.0, 0.1, 1.0, 1.0, 1.0, 1.0], 2);
         assert_eq!(split.share, [0, 1, 2, 0, 0, 0, 2]);
-        // Here the root costs more than what would be gained.
-        let split = Split::new(&PARENT, &[10.0, 10.0, 30.0, 1.0, 1.0, 1.0, 1.0], 2);
+        // Here both threads would wait for that root.
+        let split = Split::new(&PARENT, &[10.0, 10.0, 30.0, 16.0, 16.0, 16.0, 1.0], 2);
         assert_eq!(split.share, [0, 0, 0, 1, 1, 1, 2]);
     }
 

@@ -125,6 +125,9 @@ fn backward(symbolic: &Symbolic, top: &mut Worker, below: &mut [Worker]) {
 /// The start of a thread is all that allocates here. Where the system refuses one, its part is done afterwards: a thread that
 /// is missing costs time and nothing else.
 fn at_once(symbolic: &Symbolic, workers: &mut [Worker], part: impl Fn(&mut Worker, &Share) + Sync) {
+    if workers.is_empty() {
+        return;
+    }
     let work = |(worker, share): (&mut Worker, &Share)| {
         part(worker, share);
         worker.is_done = true;

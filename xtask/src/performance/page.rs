@@ -72,7 +72,7 @@ impl Numbers {
 
     /// By one thread.
     fn find(&self, part: &str, dofs: usize) -> Option<&Time> {
-        self.of(part).find(|time| time.dofs == dofs)
+        self.times.iter().find(|time| time.part == part && time.dofs == dofs && time.threads == 1)
     }
 
     /// The measured size that is next to a number of unknowns, if it lies within a quarter of it.
@@ -261,8 +261,8 @@ Mean over the first steps of a run, set-up and output left out.
 const THREADS: &str = "\
 `partita run --threads 2` factors and solves the fluid's linear systems with two threads (in the library, the setting `threads`
 of the fluid). No bit of any result depends on it: which thread eliminates which subtrees of the elimination tree is decided once
-for a mesh, and every sum keeps the order of one thread. It pays above 10 000 unknowns, and below there is one thread in any
-case. Assembly and mesh motion stay with one.
+for a mesh, and every sum keeps the order of one thread. It is meant for more than 10 000 unknowns; up to there one thread does
+it in any case. Assembly and mesh motion stay with one.
 
 ";
 

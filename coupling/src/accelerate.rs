@@ -172,6 +172,13 @@ pub enum AcceleratorState {
 pub struct QuasiNewton {
     /// Relaxation factor where no column is known: the first iteration of a run.
     pub omega_0: f64,
+    /// Relaxation factor of the part of `r` that the columns do not tell of: `J = (1 - omega_unseen) I` there.
+    ///
+    /// The textbook's is 1: what is unseen goes into the next iterate as it is. A heavy fluid multiplies that part by the
+    /// ratio of the masses, far beyond what a structure or a mesh bears. The factor costs little: on a linear interface and
+    /// in exact arithmetic the first step is GMRES (Walker and Ni 2011), which is blind to it. But a small factor makes
+    /// small changes, whatever is left of `r`: then judge a step by `r` too.
+    pub omega_unseen: f64,
     /// Steps before the current one whose columns are used; `None` is all of them, 0 none.
     pub history: Option<usize>,
     /// Which columns may stay.
@@ -183,10 +190,11 @@ pub struct QuasiNewton {
 }
 
 impl Default for QuasiNewton {
-    /// `omega_0` 0.1, five steps, QR3 at 1e-2, no relaxation where there is history, all differences kept.
+    /// `omega_0` 0.1, `omega_unseen` 1, five steps, QR3 at 1e-2, no relaxation where there is history, all differences kept.
     fn default() -> Self {
         Self {
             omega_0: 0.1,
+            omega_unseen: 1.0,
             history: Some(5),
             filter: Filter::default(),
             relax_first_iteration: false,
@@ -198,7 +206,13 @@ impl Default for QuasiNewton {
 impl QuasiNewton {
     fn validate(&self) -> Result<(), SetupError> {
         check_omega(self.omega_0)?;
+        check_omega(self.omega_unseen)?;
         self.filter.validate()
+    }
+
+    /// The multiple of the identity that `J` is where no column tells of it.
+    fn unseen_jacobian(&self) -> f64 {
+        1.0 - self.omega_unseen
     }
 }
 

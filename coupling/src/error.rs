@@ -115,7 +115,7 @@ pub enum StepFailure {
         value: f64,
     },
     /// The interface residual grows, see [`divergence`](crate::divergence).
-    #[error("{}the coupling iteration diverges: |r| grew from {:.3e} m in iteration {} to {:.3e} m in iteration {}\nhint: take a smaller relaxation factor, Aitken relaxation or a quasi-Newton method; a smaller time step does not help against the added mass of an incompressible fluid", lead(field.as_deref()), growth.from, growth.since, growth.to, growth.at)]
+    #[error("{}the coupling iteration diverges: |r| grew from {:.3e} m in iteration {} to {:.3e} m in iteration {}\nhint: take a smaller relaxation factor, Aitken relaxation or a quasi-Newton method, and with one a small `unseen_relaxation`; a smaller time step does not help against the added mass of an incompressible fluid", lead(field.as_deref()), growth.from, growth.since, growth.to, growth.at)]
     Diverges {
         /// How far it grew.
         growth: Growth,

@@ -57,6 +57,7 @@ fn acceleration(acceleration: &schema::Acceleration) -> Acceleration {
 fn quasi_newton(options: &schema::QuasiNewton) -> QuasiNewton {
     QuasiNewton {
         omega_0: options.initial_relaxation.get(),
+        omega_unseen: options.unseen_relaxation.get(),
         history: options.history_steps.get(),
         filter: match options.filter {
             schema::Filter::None => Filter::None,
@@ -72,6 +73,10 @@ fn quasi_newton(options: &schema::QuasiNewton) -> QuasiNewton {
 fn criterion(convergence: schema::Convergence) -> Criterion {
     match convergence {
         schema::Convergence::Changes(tolerance) => Criterion::Changes { tolerance: tolerance.get() },
+        schema::Convergence::ChangesAndResidual(tolerance) => Criterion::All(vec![
+            Criterion::Changes { tolerance: tolerance.get() },
+            Criterion::InterfaceResidual(Bound::Relative(tolerance.get())),
+        ]),
         schema::Convergence::EntryResiduals => Criterion::EntryResiduals,
         schema::Convergence::InterfaceResidual(bound) => Criterion::InterfaceResidual(match bound {
             schema::Tolerance::Relative(bound) => Bound::Relative(bound.get()),
@@ -102,9 +107,8 @@ fn newton_limit(limit: schema::Limit<1>) -> NewtonLimit {
 /// Nm-CC lifts its limit when the changes meet the coupling criterion; under another criterion, at the default one.
 fn changes_tolerance(convergence: schema::Convergence) -> f64 {
     match (convergence, schema::Convergence::default()) {
-        (schema::Convergence::Changes(tolerance), _) | (_, schema::Convergence::Changes(tolerance)) => {
-            tolerance.get()
-        }
+        (schema::Convergence::Changes(tolerance) | schema::Convergence::ChangesAndResidual(tolerance), _)
+        | (_, schema::Convergence::Changes(tolerance)) => tolerance.get(),
         _ => unreachable!("the default criterion is on changes"),
     }
 }

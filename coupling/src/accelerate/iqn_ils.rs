@@ -6,7 +6,8 @@ use crate::error::SetupError;
 
 /// IQN-ILS (Degroote, Bathe, Vierendeels 2009): `c = argmin |V c + r|`, `x <- x_tilde + W c`.
 ///
-/// `V` and `W` hold the columns of this step and of the last `history` steps, newest first.
+/// `V` and `W` hold the columns of this step and of the last `history` steps, newest first. Where the unseen part of `r` is
+/// relaxed, `x <- x_tilde - b + (W - J_0 V) c` with `J_0 = (1 - omega_unseen) I` and `b = J_0 r`.
 #[derive(Debug, Clone)]
 pub struct IqnIls {
     settings: QuasiNewton,
@@ -15,6 +16,8 @@ pub struct IqnIls {
     committed: Columns,
     /// The same with those of this step, as the filter has left them.
     secants: Secants,
+    /// `J_0 r`; empty where `J_0` is zero.
+    b: Vec<f64>,
 }
 
 impl IqnIls {
@@ -25,24 +28,34 @@ impl IqnIls {
     pub fn new(settings: QuasiNewton, size: usize) -> Result<Self, SetupError> {
         settings.validate()?;
         let secants = Secants::new(settings.filter);
-        Ok(Self { settings, size, committed: Columns::new(), secants })
+        Ok(Self { settings, size, committed: Columns::new(), secants, b: Vec::new() })
+    }
+
+    fn apply_initial_jacobian(&mut self, r: &[f64]) {
+        let factor = self.settings.unseen_jacobian();
+        self.b.clear();
+        if factor != 0.0 {
+            self.b.extend(r.iter().map(|r| factor * r));
+        }
     }
 }
 
 impl Accelerator for IqnIls {
     fn propose(&mut self, x: &mut [f64], r: &[f64]) -> Proposal {
         let first = self.secants.at_first_iteration();
-        let dropped = self.secants.observe(x, r, &[]);
+        self.apply_initial_jacobian(r);
+        let dropped = self.secants.observe(x, r, &self.b);
         if self.secants.len() == 0 || (first && self.settings.relax_first_iteration) {
             return relax(self.settings.omega_0, x, r, dropped);
         }
-        self.secants.update(x, r, &[]);
+        self.secants.update(x, r, &self.b);
         Proposal { omega: None, columns: self.secants.len(), dropped }
     }
 
     fn step_converged(&mut self, x: &[f64], r: &[f64]) {
         if self.settings.keep_last_differences {
-            self.secants.observe(x, r, &[]);
+            self.apply_initial_jacobian(r);
+            self.secants.observe(x, r, &self.b);
         }
         self.committed.clone_from(self.secants.columns());
         self.committed.end_step(self.settings.history);

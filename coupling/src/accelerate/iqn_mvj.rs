@@ -9,7 +9,7 @@ use crate::vector::dot;
 
 /// IQN-MVJ (Lindner, Mehl, Scheufele, Uekermann 2015): `J = J_prev + (W - J_prev V) V^+`, `x <- x_tilde - J r`.
 ///
-/// `J` maps residual differences to output differences. It is stored as a dense matrix of size² entries:
+/// `J` maps residual differences to output differences, and is `(1 - omega_unseen) I` before there are any. It is stored as a dense matrix of size² entries:
 /// for small interfaces, and for tests.
 #[derive(Debug, Clone)]
 pub struct IqnMvj {
@@ -42,13 +42,16 @@ impl IqnMvj {
     }
 
     fn apply_previous_jacobian(&mut self, r: &[f64]) {
-        multiply(&self.jacobian, r, &mut self.b);
+        multiply(&self.jacobian, self.settings.unseen_jacobian(), r, &mut self.b);
     }
 
     /// Takes the columns of the finished step into `J`.
     fn learn(&mut self) {
         match self.settings.history {
-            None => update(&mut self.jacobian, &self.secants, self.size),
+            None => {
+                let unseen = self.settings.unseen_jacobian();
+                update(&mut self.jacobian, unseen, &self.secants, self.size);
+            }
             Some(steps) => {
                 self.past.push_front(self.secants.columns().clone());
                 self.past.truncate(steps);
@@ -60,27 +63,33 @@ impl IqnMvj {
     /// `J` from the kept steps alone, oldest first.
     fn relearn(&mut self) {
         self.jacobian.clear();
+        let unseen = self.settings.unseen_jacobian();
         for columns in self.past.iter().rev() {
             let mut columns = columns.clone();
             for column in &mut columns.all {
-                multiply(&self.jacobian, &column.v, &mut column.jv);
+                multiply(&self.jacobian, unseen, &column.v, &mut column.jv);
             }
-            update(&mut self.jacobian, &Secants::from_columns(columns), self.size);
+            update(&mut self.jacobian, unseen, &Secants::from_columns(columns), self.size);
         }
     }
 }
 
-/// `result = J r`, zero while `J` is empty.
-fn multiply(jacobian: &[f64], r: &[f64], result: &mut [f64]) {
-    result.fill(0.0);
+/// `result = J r`; while `J` is empty it is a multiple of the identity.
+fn multiply(jacobian: &[f64], unseen: f64, r: &[f64], result: &mut [f64]) {
+    for (value, r) in result.iter_mut().zip(r) {
+        *value = unseen * r;
+    }
     for (value, row) in result.iter_mut().zip(jacobian.chunks_exact(r.len())) {
         *value = dot(row, r);
     }
 }
 
-/// `J += (W - J V) R^{-1} Q^T`.
-fn update(jacobian: &mut Vec<f64>, secants: &Secants, size: usize) {
-    jacobian.resize(size * size, 0.0);
+/// `J += (W - J V) R^{-1} Q^T`; while `J` is empty it is a multiple of the identity.
+fn update(jacobian: &mut Vec<f64>, unseen: f64, secants: &Secants, size: usize) {
+    if jacobian.is_empty() {
+        jacobian.resize(size * size, 0.0);
+        jacobian.iter_mut().step_by(size + 1).for_each(|diagonal| *diagonal = unseen);
+    }
     let mut unit = vec![0.0; size];
     let mut inverse_column = Vec::new();
     for column in 0..size {

@@ -7,6 +7,7 @@ use partita_coupling::{Acceleration, Accelerator, AcceleratorState, Proposal, Se
 /// Unfiltered, with every step kept.
 const PLAIN: QuasiNewton = QuasiNewton {
     omega_0: 0.2,
+    omega_unseen: 1.0,
     history: None,
     filter: Filter::None,
     relax_first_iteration: false,
@@ -120,11 +121,14 @@ fn implicit_multi_vector_update_equals_the_dense_one() {
         for (history, relax_first_iteration) in
             [(None, false), (Some(2), false), (None, true), (Some(0), false)]
         {
-            let settings = QuasiNewton { history, filter, relax_first_iteration, ..PLAIN };
-            let mut implicit = Acceleration::IqnImvls(settings).build(n).unwrap();
-            let mut dense = Acceleration::IqnMvj(settings).build(n).unwrap();
-            for step in 1..=6 {
-                assert_same_proposals(implicit.as_mut(), dense.as_mut(), &map, step, 1e-7);
+            for omega_unseen in [1.0, 0.3] {
+                let settings =
+                    QuasiNewton { omega_unseen, history, filter, relax_first_iteration, ..PLAIN };
+                let mut implicit = Acceleration::IqnImvls(settings).build(n).unwrap();
+                let mut dense = Acceleration::IqnMvj(settings).build(n).unwrap();
+                for step in 1..=6 {
+                    assert_same_proposals(implicit.as_mut(), dense.as_mut(), &map, step, 1e-7);
+                }
             }
         }
     }
@@ -134,11 +138,13 @@ fn implicit_multi_vector_update_equals_the_dense_one() {
 fn least_squares_with_one_step_equals_multi_vector_with_none() {
     let n = 10;
     let map = Map::new(n, 0.3);
-    let settings = QuasiNewton { history: Some(0), ..PLAIN };
-    let mut least_squares = Acceleration::IqnIls(settings).build(n).unwrap();
-    let mut multi_vector = Acceleration::IqnMvj(settings).build(n).unwrap();
-    for step in 1..=3 {
-        assert_same_proposals(least_squares.as_mut(), multi_vector.as_mut(), &map, step, 1e-8);
+    for omega_unseen in [1.0, 0.3] {
+        let settings = QuasiNewton { history: Some(0), omega_unseen, ..PLAIN };
+        let mut least_squares = Acceleration::IqnIls(settings).build(n).unwrap();
+        let mut multi_vector = Acceleration::IqnMvj(settings).build(n).unwrap();
+        for step in 1..=3 {
+            assert_same_proposals(least_squares.as_mut(), multi_vector.as_mut(), &map, step, 1e-8);
+        }
     }
 }
 
@@ -227,6 +233,35 @@ fn relaxed_first_iteration_is_a_relaxation_in_every_step() {
             }
         }
     }
+}
+
+#[test]
+fn what_no_difference_tells_of_is_relaxed() {
+    let n = 6;
+    let map = Map::new(n, 0.0);
+    let omega_unseen = 0.05;
+    for method in methods(QuasiNewton { omega_unseen, ..PLAIN }) {
+        let mut accelerator = method.build(n).unwrap();
+        let (mut x, mut before) = (vec![0.0; n], vec![0.0; n]);
+        let mut seen = map.residual(&x, 1);
+        accelerator.propose(&mut x, &seen);
+        // One column: the residual across it is multiplied by the factor, whatever the matrix.
+        let r = DVector::from_vec(map.residual(&x, 1));
+        let v = (&r - DVector::from_vec(std::mem::take(&mut seen))).normalize();
+        before.copy_from_slice(&x);
+        accelerator.propose(&mut x, r.as_slice());
+        let unseen = &r - &v * v.dot(&r);
+        let moved = DVector::from_vec(x) - DVector::from_vec(before);
+        let along = map_column(&map, &v);
+        let expected = &unseen * omega_unseen - along * v.dot(&r);
+        assert!((moved - expected).norm() < 1e-12, "{method:?}");
+    }
+}
+
+/// The `x` by which the residual of a linear map changes by `v`.
+fn map_column(map: &Map, v: &DVector<f64>) -> DVector<f64> {
+    let n = v.len();
+    (&map.a - DMatrix::identity(n, n)).lu().solve(v).unwrap()
 }
 
 #[test]

@@ -115,6 +115,9 @@ pub enum Acceleration {
 pub struct QuasiNewton {
     /// Factor of an iteration without any difference. Default: 0.1.
     pub initial_relaxation: Relaxation,
+    /// Factor of what no difference tells of. Smaller than 1 where a light structure would not bear it whole; then judge a
+    /// step by `changes_and_residual`. Default: 1.0.
+    pub unseen_relaxation: Relaxation,
     /// Earlier steps whose differences are used, or `"unlimited"`. Default: 5.
     pub history_steps: Limit<0>,
     /// Relaxes the first iteration of every step, history or not. Default: false.
@@ -129,6 +132,7 @@ impl Default for QuasiNewton {
     fn default() -> Self {
         Self {
             initial_relaxation: initial_relaxation(),
+            unseen_relaxation: Relaxation::new(1.0).expect("1 is a relaxation factor"),
             history_steps: Limit::AtMost(5),
             relax_first_iteration: false,
             keep_last_differences: true,
@@ -167,6 +171,8 @@ impl Default for Filter {
 pub enum Convergence {
     /// Every field's relative change in one coupling iteration is below this, and every residual below its bound.
     Changes(Positive),
+    /// The same, and in addition `|r| / |x_tilde|` is below this: the changes of a small relaxation say little.
+    ChangesAndResidual(Positive),
     /// Every field enters its call with a residual below its bound (Spenke, Delaisse, Degroote, Hosters 2023).
     EntryResiduals,
     /// The change of the interface displacement in one coupling iteration is below this bound \[m\], and every

@@ -20,6 +20,7 @@ mod performance;
 mod picture;
 mod reproduce;
 mod sensitivity;
+mod stability;
 mod stretch;
 mod task;
 mod tidy;
@@ -52,6 +53,8 @@ Tasks:
   accuracy [STUDY]...    run the studies of accuracy against time (studies/), or some of them
     --mode MODE          check (default): errors as in docs/data/accuracy.csv, or write that, docs/accuracy.md and its
                          pictures, or page: run nothing, write page and pictures from the data
+  stability [MAP]...     run the maps of what converges, compare with docs/data/stability_*.csv
+    --mode MODE          check (default), write: keep tables, pictures and docs/stability.md, or page: write that alone
   infer                  search the values that the paper does not give, as paper/inference.md says; options
                          --mode, --jobs and --fresh as above
   sensitivity            judge the claims on cases with other values, write paper/results/sensitivity.csv
@@ -80,6 +83,7 @@ fn dispatch(arguments: &[&str]) -> Result<(), TaskError> {
         ["performance", options @ ..] => performance::run(root, options),
         ["effects", options @ ..] => effects::run(root, options),
         ["accuracy", options @ ..] => accuracy::run(root, options),
+        ["stability", options @ ..] => stability::run(root, options),
         ["infer", options @ ..] => infer::run(root, &Options::parse("infer", options)?),
         ["sensitivity", options @ ..] => sensitivity::run(root, &Options::parse("sensitivity", options)?),
         ["beyond", options @ ..] => beyond::run(root, &Options::parse("beyond", options)?),

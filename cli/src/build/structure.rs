@@ -2,8 +2,8 @@
 
 use partita_iga::{Side, project};
 use partita_structure::{
-    BodyForce, Boundary, Law, Material, Plane, Rayleigh, Space, StructureModel, StructureSettings,
-    StructureSolver, TimeScheme,
+    BodyForce, Boundary, Law, LineSearch, Material, Plane, Rayleigh, Space, StructureModel,
+    StructureSettings, StructureSolver, TimeScheme,
 };
 
 use super::{BuildError, newton};
@@ -38,7 +38,10 @@ pub(super) fn solver(
         rayleigh: structure
             .rayleigh_damping
             .map(|damping| Rayleigh { mass: damping.mass.get(), stiffness: damping.stiffness.get() }),
-        line_search: None,
+        line_search: structure.line_search.map(|search| LineSearch {
+            tolerance: search.tolerance.get(),
+            max_evaluations: search.max_evaluations.get(),
+        }),
     };
     Ok(StructureSolver::new(space, model, settings)?)
 }

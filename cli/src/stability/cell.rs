@@ -129,6 +129,8 @@ impl<'a> Course<'a> {
             "take a damped time scheme or another step size; compare with smaller steps before trusting it"
                 .clone_into(&mut self.row.remedy);
         }
+        let structure = self.run.second().field().filter(|_| !self.row.iterations.is_empty());
+        self.row.structure_displacement = structure.map(measure::largest_displacement);
         let fluid = self.run.first().field().filter(|_| !self.row.iterations.is_empty());
         self.row.pressure_oscillation = fluid.map(measure::pressure_oscillation);
         self.row

@@ -2,6 +2,7 @@
 
 use partita_fluid::FluidSolver;
 use partita_mesh::Mesh;
+use partita_structure::StructureSolver;
 
 use crate::build::Run;
 
@@ -11,6 +12,11 @@ pub(super) fn energy(run: &Run) -> f64 {
     let structure =
         run.second().field().map_or(0.0, |structure| structure.kinetic_energy() + structure.strain_energy());
     fluid + structure
+}
+
+/// Largest displacement of a control point or node of the structure \[m\].
+pub(super) fn largest_displacement(structure: &StructureSolver<2>) -> f64 {
+    structure.values().chunks_exact(2).map(|d| d[0].hypot(d[1])).fold(0.0, f64::max)
 }
 
 /// Largest of the last half over the largest of the first half; 0/0 = 1. Nothing of fewer than four.

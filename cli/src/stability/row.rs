@@ -96,6 +96,8 @@ pub struct Row {
     pub energy_growth: Option<f64>,
     /// Node-to-node oscillation of the fluid's pressure at the end, see [`super::measure`].
     pub pressure_oscillation: Option<f64>,
+    /// Largest displacement of the structure at the end \[m\].
+    pub structure_displacement: Option<f64>,
     /// Smallest shape quality of the fluid's moved mesh over all steps, in (0, 1].
     pub mesh_quality: Option<f64>,
 }
@@ -113,6 +115,7 @@ impl Row {
             retries: 0,
             energy_growth: None,
             pressure_oscillation: None,
+            structure_displacement: None,
             mesh_quality: None,
         }
     }
@@ -137,7 +140,7 @@ pub fn to_csv(map: &Map, rows: &[Row]) -> String {
     let [first, second] = &map.axes;
     let mut text = format!(
         "accelerator,{},{},outcome,mean_iterations,max_iterations,cause,failing_step,steps,newton_iterations,retries,\
-         energy_growth,pressure_oscillation,mesh_quality,remedy\n",
+         energy_growth,pressure_oscillation,structure_displacement,mesh_quality,remedy\n",
         first.name, second.name
     );
     for (cell, row) in map.cells.iter().zip(rows) {
@@ -156,6 +159,7 @@ pub fn to_csv(map: &Map, rows: &[Row]) -> String {
             row.retries.to_string(),
             number(row.energy_growth),
             number(row.pressure_oscillation),
+            number(row.structure_displacement),
             number(row.mesh_quality),
             row.remedy.clone(),
         ];

@@ -75,7 +75,7 @@ fn a_wall_that_folds_the_mesh_ends_the_run_at_the_cell() {
     let (outcome, left) = fails(&folder, &[], 3);
     assert_snapshot!(plain(&outcome.stderr), @r"
     step 3 (t = 0.3 s), fluid: mesh motion: cell 24 at (0.175709, 0.663281) m is inverted, measure -1.318e-2 m^2
-    help: smaller time steps, incremental mesh motion, or a larger stiffening
+    help: smaller time steps, incremental mesh motion, or another stiffening
     ");
     assert_eq!(left.fields, ["fluid-000002.vtu"]);
     assert_eq!(left.iterations, 0, "the step was not opened");

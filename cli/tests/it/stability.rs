@@ -70,7 +70,7 @@ fn a_map_is_a_table_a_picture_and_a_line_for_each_choice() {
     assert_eq!(
         lines.next().expect("a header"),
         "accelerator,density_ratio,dt,outcome,mean_iterations,max_iterations,cause,failing_step,steps,\
-         newton_iterations,retries,energy_growth,pressure_oscillation,mesh_quality,remedy"
+         newton_iterations,retries,energy_growth,pressure_oscillation,structure_displacement,mesh_quality,remedy"
     );
     assert_eq!(lines.clone().count(), 8);
     let diverged = lines.find(|line| line.contains(",diverged,")).expect("one cell diverges");

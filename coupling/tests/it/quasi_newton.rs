@@ -122,8 +122,7 @@ fn implicit_multi_vector_update_equals_the_dense_one() {
             [(None, false), (Some(2), false), (None, true), (Some(0), false)]
         {
             for omega_unseen in [1.0, 0.3] {
-                let settings =
-                    QuasiNewton { omega_unseen, history, filter, relax_first_iteration, ..PLAIN };
+                let settings = QuasiNewton { omega_unseen, history, filter, relax_first_iteration, ..PLAIN };
                 let mut implicit = Acceleration::IqnImvls(settings).build(n).unwrap();
                 let mut dense = Acceleration::IqnMvj(settings).build(n).unwrap();
                 for step in 1..=6 {

@@ -162,7 +162,7 @@ fn data_that_is_not_finite_is_refused_where_it_is() {
     ");
     insta::assert_snapshot!(fluid.impose(&[0.0, 1.5, 0.0, 1.5, 0.0, 1.5]).expect_err("a refusal"), @r"
     t = 0.5 s, fluid: mesh motion: cell 0 at (0.253169, 1.4625) m is inverted, measure -2.813e-2 m^2
-    hint: smaller time steps, incremental mesh motion, or a larger stiffening
+    hint: smaller time steps, incremental mesh motion, or another stiffening
     ");
     // A call that failed leaves a step that can be given up and redone.
     fluid.rewind();

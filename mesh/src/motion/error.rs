@@ -10,7 +10,7 @@ pub enum MotionError {
     /// A cell is flat or turned inside out after the motion.
     #[error(
         "mesh motion: cell {cell} at {centroid} is inverted, measure {measure:.3e} m^{}\n\
-         hint: smaller time steps, incremental mesh motion, or a larger stiffening", centroid.0.len()
+         hint: smaller time steps, incremental mesh motion, or another stiffening", centroid.0.len()
     )]
     Inverted {
         /// The cell of the smallest measure.

@@ -20,7 +20,7 @@ fn inverted_triangle_is_named_with_its_place() {
     let error = motion.check(&displacement).expect_err("the centre has left the square");
     insta::assert_snapshot!(error, @r"
     mesh motion: cell 6 at (1.03333, 0.833333) m is inverted, measure -2.500e-2 m^2
-    hint: smaller time steps, incremental mesh motion, or a larger stiffening
+    hint: smaller time steps, incremental mesh motion, or another stiffening
     ");
 }
 
@@ -34,7 +34,7 @@ fn inverted_tetrahedron_is_named_with_its_place() {
     let error = motion.check(&displacement).expect_err("a corner pushed through");
     insta::assert_snapshot!(error, @r"
     mesh motion: cell 4 at (0.2, 0.75, 0.25) m is inverted, measure -3.333e-2 m^3
-    hint: smaller time steps, incremental mesh motion, or a larger stiffening
+    hint: smaller time steps, incremental mesh motion, or another stiffening
     ");
 }
 

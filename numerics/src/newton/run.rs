@@ -175,10 +175,10 @@ impl Report {
     }
 }
 
-/// Below this relative residual a standstill is round-off; above it, it is a hard problem.
-const ROUND_OFF: f64 = 1e-8;
-/// A residual stands still once it has not fallen by `DECREASE` in `PATIENCE` iterations.
-const PATIENCE: usize = 3;
+/// Relative residuals at which a standstill is round-off, and for how many iterations the residual must not have fallen by
+/// `DECREASE`. Round-off of a nearly incompressible solid is far above that of its terms: a standstill there must last.
+/// Above both, it is a hard problem.
+const ROUND_OFF: [(f64, usize); 2] = [(1e-8, 3), (1e-5, 10)];
 const DECREASE: f64 = 0.9;
 
 /// Watches the residuals of one call for growth and for standstill.
@@ -218,6 +218,6 @@ impl Watch {
         } else {
             self.since_lowest += 1;
         }
-        residual.relative < ROUND_OFF && self.since_lowest >= PATIENCE
+        ROUND_OFF.iter().any(|&(level, patience)| residual.relative < level && self.since_lowest >= patience)
     }
 }

@@ -226,6 +226,20 @@ fn growth_from_an_exactly_zero_entry_is_measured_from_the_first_residual() {
 }
 
 #[test]
+fn standstill_at_the_round_off_of_a_stiff_problem_must_last() {
+    let hovering = |k: usize| if k.is_multiple_of(2) { 2e-7 } else { 3e-7 };
+    let residuals: Vec<f64> = [1.0, 1e-3].into_iter().chain((0..30).map(hovering)).collect();
+    let failure = Script::new(&residuals).run(Check::Before, Limit::ToConvergence).unwrap_err();
+    assert!(matches!(failure, Failure::Stagnated { iteration: 12, .. }), "{failure}");
+    let hard: Vec<f64> = residuals.iter().map(|r| 1e3 * r).collect();
+    let failure = Script::new(&hard).run(Check::Before, Limit::ToConvergence).unwrap_err();
+    assert!(matches!(failure, Failure::TooManyIterations { .. }), "far above round-off: {failure}");
+    let slow: Vec<f64> = (0..60).map(|k| 9e-6 * 0.98_f64.powi(k)).collect();
+    let failure = Script::new(&slow).run(Check::Before, Limit::ToConvergence).unwrap_err();
+    assert!(matches!(failure, Failure::TooManyIterations { .. }), "it falls: {failure}");
+}
+
+#[test]
 fn standstill_at_round_off_is_an_error_or_a_flag() {
     let floor = [1.0, 1e-5, 3e-10, 2.9e-10, 3.1e-10, 2.8e-10, 3e-10];
     let failure = Script::new(&floor).run(Check::Before, Limit::ToConvergence).unwrap_err();

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::formula::VectorFormula;
 use super::geometry::Geometry;
 use super::newton::Newton;
-use super::numbers::{NonNegative, PoissonRatio, Positive, SpectralRadius};
+use super::numbers::{Count, Fraction, NonNegative, PoissonRatio, Positive, SpectralRadius};
 
 /// `[structure]`: a solid on a spline patch or a mesh.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -35,6 +35,9 @@ pub struct Structure {
     /// Rayleigh damping. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rayleigh_damping: Option<RayleighDamping>,
+    /// Shortens Newton increments that overshoot. Default: none, every increment is taken whole.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line_search: Option<LineSearch>,
     /// How the nonlinear equations are solved.
     #[serde(default)]
     pub newton: Newton,
@@ -134,6 +137,27 @@ fn newmark_gamma() -> Positive {
 impl Default for StructureTimeScheme {
     fn default() -> Self {
         Self::GeneralizedAlpha { spectral_radius: spectral_radius() }
+    }
+}
+
+/// `[structure.line_search]`: seeks the length of a Newton increment at which the residual does no more work along it.
+///
+/// For loads that turn or crush a solid within a few steps. An increment that already does little stays whole.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct LineSearch {
+    /// Part of the work at the start that may remain. Default: 0.8.
+    pub tolerance: Fraction,
+    /// Residuals that may be evaluated for one increment. Default: 10.
+    pub max_evaluations: Count,
+}
+
+impl Default for LineSearch {
+    fn default() -> Self {
+        Self {
+            tolerance: Fraction::new(0.8).expect("0.8 is a fraction"),
+            max_evaluations: Count::literal(10),
+        }
     }
 }
 

@@ -1,1 +1,82 @@
 //! The hardest corners of the shipped maps, few steps each.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use partita::stability::{self, Ending, Map, Options, Outcome, Row};
+
+/// What one cell of a shipped map comes to, in at most `steps` steps where the map does not set them.
+fn corner(map: &str, choice: &str, values: [&str; 2], steps: Option<usize>) -> Row {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../maps").join(map).with_extension("toml");
+    let mut map = Map::load(&path).expect("a shipped map is sound");
+    let axis = |axis: usize| map.axes[axis].values.iter().position(|value| value == values[axis]);
+    let place = [axis(0), axis(1)].map(|index| index.expect("a value of the map"));
+    let choice = map.choices.iter().position(|name| name == choice).expect("a choice of the map");
+    map.cells.retain(|cell| cell.choice == choice && cell.values == place);
+    map.cells[0].overrides.extend(steps.map(|steps| format!("time.steps={steps}")));
+    let folder = tempfile::tempdir().expect("a folder");
+    let options = Options { jobs: 1, fresh: true, quiet: true, stop: &AtomicBool::new(false) };
+    let ending = stability::run(&map, folder.path(), options).expect("the folder takes a map");
+    let Ending::Finished(mut rows) = ending else { panic!("nobody interrupts it") };
+    rows.remove(0)
+}
+
+fn most(row: &Row) -> usize {
+    assert_eq!(row.outcome, Outcome::Converged, "{}", row.cause);
+    row.max_iterations().expect("steps were made")
+}
+
+/// The aim of the tank's map is 20; the corners are those where a step comes closest to it.
+#[test]
+fn heaviest_fluid_converges_at_small_and_large_steps() {
+    for dt in ["1e-5", "0.01"] {
+        let row = corner("tank", "IQN-IMVLS", ["100", dt], Some(2));
+        assert!(most(&row) <= 20, "dt = {dt} s: {:?}", row.iterations);
+    }
+}
+
+#[test]
+fn heaviest_fluid_is_too_much_for_relaxation_and_for_the_textbook_and_they_say_so() {
+    let row = corner("tank", "constant", ["100", "1e-5"], Some(2));
+    assert_eq!((row.outcome, row.failing_step), (Outcome::Diverged, Some(1)), "{}", row.cause);
+    assert!(row.cause.contains("|r| grew from") && row.remedy.contains("unseen_relaxation"), "{row:?}");
+    let row = corner("tank", "IQN-IMVLS, textbook", ["100", "1e-5"], Some(2));
+    assert_eq!((row.outcome, row.failing_step), (Outcome::Diverged, Some(1)), "{}", row.cause);
+}
+
+#[test]
+fn one_newton_iteration_a_call_is_enough_for_the_heaviest_fluid() {
+    let row = corner("limits", "IQN-IMVLS", ["1", "100"], Some(2));
+    assert!(most(&row) <= 60, "{:?}", row.iterations);
+}
+
+#[test]
+fn fast_flow_at_the_smallest_step_has_a_smooth_pressure() {
+    for choice in ["BDF1", "BDF2", "BDF2 without grad-div"] {
+        for dt in ["1e-7", "0.1"] {
+            let row = corner("fluid", choice, ["100000", dt], Some(10));
+            assert!(most(&row) <= 6, "{choice}, dt = {dt} s: {:?}", row.iterations);
+            let oscillation = row.pressure_oscillation.expect("a fluid");
+            assert!(oscillation < 0.04, "{choice}, dt = {dt} s: {oscillation}");
+        }
+    }
+}
+
+#[test]
+fn small_steps_of_a_viscous_flow_need_grad_div() {
+    let oscillation = |choice: &str| {
+        let row = corner("fluid", choice, ["1", "1e-7"], Some(10));
+        assert_eq!(row.outcome, Outcome::Converged, "{}", row.cause);
+        row.pressure_oscillation.expect("a fluid")
+    };
+    let (with, without) = (oscillation("BDF2"), oscillation("BDF2 without grad-div"));
+    assert!(with < 0.2 && without > 1.0, "{with} with it, {without} without");
+}
+
+#[test]
+fn nearly_incompressible_flag_converges_on_the_finest_mesh() {
+    for (choice, bound) in [("degree 1", 5), ("degree 2", 12), ("degree 3", 12)] {
+        let row = corner("poisson", choice, ["0.4999", "72"], Some(2));
+        assert!(most(&row) <= bound, "{choice}: {:?}", row.iterations);
+    }
+}

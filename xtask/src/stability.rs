@@ -1,0 +1,130 @@
+//! `cargo xtask stability`: the maps of `maps/`, run with the release binary, their tables, pictures and page.
+//!
+//! A map is run by `partita stability`, which counts work and not time, so that its table is the same for any number of
+//! jobs. The tables are kept in `docs/data`; the page is made from them, from the maps and from the remarks beside these.
+
+mod compare;
+mod page;
+mod table;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::task::{self, TaskError};
+use table::{Map, Table};
+
+/// The maps in the order of the page.
+const MAPS: [&str; 6] = ["tank", "limits", "fluid", "poisson", "rotation", "swing"];
+
+const PAGE: &str = "docs/stability.md";
+/// Cells at a time.
+const JOBS: &str = "2";
+
+const USAGE: &str = "Usage: cargo xtask stability [--mode write|check|page] [MAP]...";
+
+/// Runs the maps asked for, all of them where none is, and checks or writes what comes out.
+pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
+    let wrong = || TaskError::Usage { given: format!("stability {}", words.join(" ")), usage: USAGE };
+    let (mode, names) = match words {
+        ["--mode", mode @ ("write" | "check" | "page"), names @ ..] => (*mode, names),
+        names => ("check", names),
+    };
+    if names.iter().any(|name| !MAPS.contains(name)) {
+        return Err(wrong());
+    }
+    if mode == "page" {
+        return task::write(&root.join(PAGE), &page::markdown(&all(root)?));
+    }
+    let wanted = |name: &&str| names.is_empty() || names.contains(name);
+    let binary = task::release_binary(root)?;
+    let mut faults = Vec::new();
+    for name in MAPS.into_iter().filter(wanted) {
+        let folder = carry_out(root, &binary, name)?;
+        if mode == "write" {
+            task::write(&root.join(data(name)), &task::read(&folder.join("cells.csv"))?)?;
+            task::write(&root.join("docs").join(figure(name)), &task::read(&folder.join("map.svg"))?)?;
+            continue;
+        }
+        let found = Table::read(&folder.join("cells.csv"))?;
+        let kept = Table::read(&root.join(data(name)))?;
+        faults
+            .extend(compare::differences(&kept, &found).into_iter().map(|fault| format!("{name}: {fault}")));
+    }
+    if mode == "write" {
+        return task::write(&root.join(PAGE), &page::markdown(&all(root)?));
+    }
+    if !faults.is_empty() {
+        return Err(TaskError::Failed(faults.join("\n")));
+    }
+    check_page(root)
+}
+
+/// Fails where the page does not say what the tables say.
+pub(crate) fn check_page(root: &Path) -> Result<(), TaskError> {
+    if task::read(&root.join(PAGE))? == page::markdown(&all(root)?) {
+        return Ok(());
+    }
+    Err(TaskError::Failed(format!(
+        "{PAGE} does not say what its tables, maps and remarks say\n\
+         hint: `cargo xtask stability --mode page` writes it, `--mode write` runs the maps before that"
+    )))
+}
+
+/// Runs one map anew; returns its folder.
+fn carry_out(root: &Path, binary: &Path, name: &str) -> Result<PathBuf, TaskError> {
+    let target = binary.parent().and_then(Path::parent).expect("target/release/partita");
+    let folder = target.join("stability").join(name);
+    task::remove_folder(&folder)?;
+    eprintln!("{name}");
+    let mut command = Command::new(binary);
+    command.current_dir(root).arg("stability").arg(format!("maps/{name}.toml"));
+    command.args(["--jobs", JOBS, "--out"]).arg(&folder);
+    task::run(command)?;
+    Ok(folder)
+}
+
+/// Maps, their remarks and their tables.
+fn all(root: &Path) -> Result<Vec<(Map, Table)>, TaskError> {
+    MAPS.into_iter().map(|name| Ok((Map::read(root, name)?, Table::read(&root.join(data(name)))?))).collect()
+}
+
+fn data(name: &str) -> String {
+    format!("docs/data/stability_{name}.csv")
+}
+
+/// Seen from the page.
+fn figure(name: &str) -> String {
+    format!("figures/stability-{name}.svg")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::task::workspace_root;
+
+    #[test]
+    fn the_page_is_that_of_the_tables() {
+        check_page(workspace_root()).expect("nobody has edited one without the other");
+    }
+
+    #[test]
+    fn every_shipped_map_is_on_the_page_with_a_table_of_its_cells() {
+        let root = workspace_root();
+        let files = task::files_of(&root.join("maps")).expect("the maps");
+        let shipped = files.iter().filter_map(|(name, _)| name.strip_suffix(".toml"));
+        let mut ours = MAPS;
+        ours.sort_unstable();
+        assert_eq!(shipped.collect::<Vec<_>>(), ours);
+        for (map, table) in all(root).expect("maps and tables") {
+            let cells = map.choices.len() * map.axes[0].values.len() * map.axes[1].values.len();
+            assert_eq!(table.cells.len(), cells, "{}", map.name);
+        }
+    }
+
+    #[test]
+    fn words_that_are_no_map_are_refused() {
+        for words in [&["tanks"][..], &["--mode"], &["--mode", "print"], &["tank", "--mode", "write"]] {
+            assert!(matches!(run(workspace_root(), words), Err(TaskError::Usage { .. })), "{words:?}");
+        }
+    }
+}

@@ -38,7 +38,9 @@ fn main() {
         ["step", divisions] => step(size(divisions), 1),
         ["step", divisions, threads] => step(size(divisions), size(threads)),
         _ => {
-            eprintln!("performance: say `parts N`, `parts N faer`, `threads N`, `step N` or `step N THREADS`")
+            eprintln!(
+                "performance: say `parts N`, `parts N faer`, `threads N`, `step N` or `step N THREADS`"
+            );
         }
     }
 }

@@ -132,7 +132,9 @@ fn at_once(symbolic: &Symbolic, workers: &mut [Worker], part: impl Fn(&mut Worke
         part(worker, share);
         worker.is_done = true;
     };
-    workers.iter_mut().for_each(|worker| worker.is_done = false);
+    for worker in &mut *workers {
+        worker.is_done = false;
+    }
     thread::scope(|scope| {
         let mut parts = workers.iter_mut().zip(&symbolic.shares);
         let first = parts.next();

@@ -80,3 +80,39 @@ fn nearly_incompressible_flag_converges_on_the_finest_mesh() {
         assert!(most(&row) <= bound, "{choice}: {:?}", row.iterations);
     }
 }
+
+#[test]
+fn low_degrees_lock_and_the_table_shows_it() {
+    let displacement = |degree: &str| {
+        corner("poisson", degree, ["0.4999", "9"], None).structure_displacement.expect("a structure")
+    };
+    let (locked, bent) = (displacement("degree 1"), displacement("degree 3"));
+    assert!(locked < 0.2 * bent, "{locked} m against {bent} m");
+}
+
+#[test]
+fn large_load_in_one_step_needs_a_line_search() {
+    let row = corner("rotation", "neo-Hookean", ["500000", "1"], None);
+    assert_eq!(row.outcome, Outcome::FieldFailed);
+    assert!(row.cause.contains("det F") && row.remedy.contains("line search"), "{row:?}");
+    let row = corner("rotation", "neo-Hookean, line search", ["500000", "1"], None);
+    assert!(most(&row) <= 50, "{:?}", row.iterations);
+}
+
+#[test]
+fn load_that_crushes_saint_venant_kirchhoff_is_refused_in_any_step() {
+    let row = corner("rotation", "St. Venant-Kirchhoff, halved steps", ["500000", "1"], None);
+    assert_eq!(row.outcome, Outcome::FieldFailed);
+    assert!(row.retries > 0 && row.cause.contains("turned inside out"), "{row:?}");
+}
+
+#[test]
+fn widest_swing_needs_the_last_mesh_and_small_steps() {
+    let row = corner("swing", "elastic, chi = 1", ["0.17", "24"], None);
+    assert_eq!(row.outcome, Outcome::FieldFailed);
+    assert!(row.cause.contains("mesh motion: cell") && row.cause.contains("is inverted"), "{}", row.cause);
+    // A quarter of the swing: out to the widest.
+    let row = corner("swing", "elastic, chi = 1, from the last mesh", ["0.17", "24"], Some(6));
+    assert!(most(&row) <= 7, "{:?}", row.iterations);
+    assert!(row.mesh_quality.expect("a mesh that moves") > 0.01, "{:?}", row.mesh_quality);
+}

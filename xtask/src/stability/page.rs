@@ -125,7 +125,7 @@ fn measures(map: &Map, table: &Table, measure: fn(&Cell) -> Option<f64>) -> Stri
     let first =
         table.cells.iter().take(count).map(|cell| format!(" {} |", cell.values[1])).collect::<String>();
     let mut text = format!(
-        "| choice | {} \\\\ {} |{first}\n|---|---:|{}\n",
+        "| choice | {} \\ {} |{first}\n|---|---:|{}\n",
         rows.label(),
         columns.label(),
         "---:|".repeat(count)

@@ -171,7 +171,7 @@ impl Default for Filter {
 pub enum Convergence {
     /// Every field's relative change in one coupling iteration is below this, and every residual below its bound.
     Changes(Positive),
-    /// The same, and in addition `|r| / |x_tilde|` is below this: the changes of a small relaxation say little.
+    /// The same, and the interface residual too, relative to the displacement: a small relaxation changes little.
     ChangesAndResidual(Positive),
     /// Every field enters its call with a residual below its bound (Spenke, Delaisse, Degroote, Hosters 2023).
     EntryResiduals,

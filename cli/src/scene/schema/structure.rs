@@ -35,7 +35,7 @@ pub struct Structure {
     /// Rayleigh damping. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rayleigh_damping: Option<RayleighDamping>,
-    /// Shortens Newton increments that overshoot. Default: none, every increment is taken whole.
+    /// Shortens Newton increments that overshoot. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line_search: Option<LineSearch>,
     /// How the nonlinear equations are solved.

@@ -79,7 +79,7 @@ fn check_says_what_a_scene_is() {
                   generalized_alpha (spectral_radius 1.0)
                   clamped: left, right; wetted: top
       interface   11 fluid nodes on 60 control points that move
-      coupling    iqn_imvls (initial_relaxation 0.1, history_steps 2, relax_first_iteration true, keep_last_differences true, filter (qr3 0.1))
+      coupling    iqn_imvls (initial_relaxation 0.1, unseen_relaxation 1.0, history_steps 2, relax_first_iteration true, keep_last_differences true, filter (qr3 0.1))
                   predictor linear
                   until changes 1e-5, at most 100 iterations
                   Newton iterations a call: fixed (fluid unlimited, structure unlimited)

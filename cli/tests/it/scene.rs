@@ -150,6 +150,7 @@ fn a_resolved_scene_holds_every_default() {
 
     [coupling.acceleration.iqn_imvls]
     initial_relaxation = 0.1
+    unseen_relaxation = 1.0
     history_steps = 5
     relax_first_iteration = false
     keep_last_differences = true

@@ -122,10 +122,10 @@ fn filled(map: &Map, table: &Table) -> String {
 fn measures(map: &Map, table: &Table, measure: fn(&Cell) -> Option<f64>) -> String {
     let [rows, columns] = &map.axes;
     let count = columns.values.len();
-    let first =
-        table.cells.iter().take(count).map(|cell| format!(" {} |", cell.values[1])).collect::<String>();
+    let first = table.cells.iter().take(count).map(|cell| cell.values[1].clone()).collect::<Vec<_>>();
+    let first = first.join(" | ");
     let mut text = format!(
-        "| choice | {} \\ {} |{first}\n|---|---:|{}\n",
+        "| choice | {} \\ {} | {first} |\n|---|---:|{}\n",
         rows.label(),
         columns.label(),
         "---:|".repeat(count)

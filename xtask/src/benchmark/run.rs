@@ -59,7 +59,8 @@ pub(super) fn level(
     check.arg(scene).args(&settings);
     let dofs = unknowns(&captured(check)?);
     let probes = Probes::read(&run.dir.join("probes.csv"))?;
-    let time = if case.until.is_some() { probes.end() } else { None };
+    let swings = case.quantities.iter().any(|quantity| quantity.take != Take::Last);
+    let time = if swings { probes.end() } else { None };
     let repeats = case.until.as_ref().and_then(|until| probes.repetition(until));
     let lead = case.until.as_ref().map(|until| until.column.as_str());
     let rows = case.quantities.iter().map(|quantity| {

@@ -122,7 +122,7 @@ pub(crate) struct Manner {
     /// Stop after this many steps of the scene; the run can be resumed.
     #[arg(long, value_name = "N")]
     pub(crate) steps: Option<NonZeroUsize>,
-    /// Threads that solve the fluid's linear systems; it pays above 10000 unknowns, below it there is one in any case.
+    /// Threads that solve the fluid's linear systems; up to 10000 unknowns there is one in any case.
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) threads: NonZeroUsize,
     /// Show no progress and print no table.

@@ -4,7 +4,6 @@
 //! are kept in `docs/data/accuracy.csv`; page and pictures are made from that file and the texts of the studies alone.
 
 mod findings;
-mod options;
 mod page;
 mod row;
 mod run;
@@ -14,18 +13,20 @@ mod study;
 use std::path::Path;
 
 use crate::csv::Csv;
+use crate::selection::{Mode, Selection};
 use crate::task::{self, TaskError};
 use findings::Findings;
-use options::{Mode, Options};
 use row::Row;
 use study::{STUDIES, Study};
 
 const DATA: &str = "docs/data/accuracy.csv";
 const PAGE: &str = "docs/accuracy.md";
 
+const USAGE: &str = "Usage: cargo xtask accuracy [--mode check|write|page] [STUDY]...";
+
 /// The task as its words say.
 pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
-    let Options { mode, studies } = Options::parse(words)?;
+    let Selection { mode, names: studies } = Selection::parse("accuracy", USAGE, &STUDIES, words)?;
     match mode {
         Mode::Page => write_pages(root),
         Mode::Write => {

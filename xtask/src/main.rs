@@ -19,6 +19,7 @@ mod options;
 mod performance;
 mod picture;
 mod reproduce;
+mod selection;
 mod sensitivity;
 mod stability;
 mod stretch;
@@ -59,7 +60,8 @@ Tasks:
                          --mode, --jobs and --fresh as above
   sensitivity            judge the claims on cases with other values, write paper/results/sensitivity.csv
   beyond                 run tables 1 and 2 with quadratic convergence, write docs/beyond-the-paper.md
-  ci [--skip NAME]...    run all that CI runs, in its order: test, fmt, clippy, doc, tidy, pages, accuracy, reproduce
+  ci [--skip NAME]...    run all that CI runs, in its order: test, fmt, clippy, doc, tidy, pages, accuracy, maps,
+                         reproduce
 ";
 
 fn main() -> ExitCode {

@@ -10,6 +10,7 @@ mod table;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::selection::{Mode, Selection};
 use crate::task::{self, TaskError};
 use table::{Map, Table};
 
@@ -20,43 +21,44 @@ const PAGE: &str = "docs/stability.md";
 /// Cells at a time.
 const JOBS: &str = "2";
 
-const USAGE: &str = "Usage: cargo xtask stability [--mode write|check|page] [MAP]...";
+const USAGE: &str = "Usage: cargo xtask stability [--mode check|write|page] [MAP]...";
 
 /// Runs the maps asked for, all of them where none is, and checks or writes what comes out.
 pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
-    let wrong = || TaskError::Usage { given: format!("stability {}", words.join(" ")), usage: USAGE };
-    let (mode, names) = match words {
-        ["--mode", mode @ ("write" | "check" | "page"), names @ ..] => (*mode, names),
-        names => ("check", names),
-    };
-    if names.iter().any(|name| !MAPS.contains(name)) {
-        return Err(wrong());
+    let Selection { mode, names } = Selection::parse("stability", USAGE, &MAPS, words)?;
+    match mode {
+        Mode::Page => {}
+        Mode::Write => write(root, &names)?,
+        Mode::Check => {
+            check(root, &names)?;
+            return check_page(root);
+        }
     }
-    if mode == "page" {
-        return task::write(&root.join(PAGE), &page::markdown(&all(root)?));
+    task::write(&root.join(PAGE), &page::markdown(&all(root)?))
+}
+
+/// Keeps the tables and pictures of these maps.
+fn write(root: &Path, names: &[&str]) -> Result<(), TaskError> {
+    let binary = task::release_binary(root)?;
+    for name in names {
+        let folder = carry_out(root, &binary, name)?;
+        task::write(&root.join(data(name)), &task::read(&folder.join("cells.csv"))?)?;
+        task::write(&root.join("docs").join(figure(name)), &task::read(&folder.join("map.svg"))?)?;
     }
-    let wanted = |name: &&str| names.is_empty() || names.contains(name);
+    Ok(())
+}
+
+/// Compares these maps with the tables kept.
+fn check(root: &Path, names: &[&str]) -> Result<(), TaskError> {
     let binary = task::release_binary(root)?;
     let mut faults = Vec::new();
-    for name in MAPS.into_iter().filter(wanted) {
-        let folder = carry_out(root, &binary, name)?;
-        if mode == "write" {
-            task::write(&root.join(data(name)), &task::read(&folder.join("cells.csv"))?)?;
-            task::write(&root.join("docs").join(figure(name)), &task::read(&folder.join("map.svg"))?)?;
-            continue;
-        }
-        let found = Table::read(&folder.join("cells.csv"))?;
+    for name in names {
+        let found = Table::read(&carry_out(root, &binary, name)?.join("cells.csv"))?;
         let kept = Table::read(&root.join(data(name)))?;
-        faults
-            .extend(compare::differences(&kept, &found).into_iter().map(|fault| format!("{name}: {fault}")));
+        let differences = compare::differences(&kept, &found);
+        faults.extend(differences.into_iter().map(|fault| format!("{name}: {fault}")));
     }
-    if mode == "write" {
-        return task::write(&root.join(PAGE), &page::markdown(&all(root)?));
-    }
-    if !faults.is_empty() {
-        return Err(TaskError::Failed(faults.join("\n")));
-    }
-    check_page(root)
+    if faults.is_empty() { Ok(()) } else { Err(TaskError::Failed(faults.join("\n"))) }
 }
 
 /// Fails where the page does not say what the tables say.
@@ -123,7 +125,7 @@ mod tests {
 
     #[test]
     fn words_that_are_no_map_are_refused() {
-        for words in [&["tanks"][..], &["--mode"], &["--mode", "print"], &["tank", "--mode", "write"]] {
+        for words in [&["tanks"][..], &["--mode"], &["--mode", "print"]] {
             assert!(matches!(run(workspace_root(), words), Err(TaskError::Usage { .. })), "{words:?}");
         }
     }

@@ -46,8 +46,8 @@ impl StepInverse {
 
 /// IQN-IMVLS (Spenke, Hosters, Behr 2020): the update of IQN-MVJ without ever forming `J`.
 ///
-/// With `b = J_prev r` from the recurrence over the kept steps, which ends with `(1 - omega_unseen) I`, and `B = W - J_prev V` of this step, whose
-/// columns are `w_k - (b^k - b^{k-1})`: `c = argmin |V c + r|` over this step's columns, `x <- x_tilde - b + B c`.
+/// With `b = J_prev r` from the recurrence over the kept steps, which ends with `(1 - omega_unseen) I`, and `B = W - J_prev V`
+/// of this step, whose columns are `w_k - (b^k - b^{k-1})`: `c = argmin |V c + r|` over this step's columns, `x <- x_tilde - b + B c`.
 #[derive(Debug, Clone)]
 pub struct IqnImvls {
     settings: QuasiNewton,

@@ -9,8 +9,8 @@ use crate::vector::dot;
 
 /// IQN-MVJ (Lindner, Mehl, Scheufele, Uekermann 2015): `J = J_prev + (W - J_prev V) V^+`, `x <- x_tilde - J r`.
 ///
-/// `J` maps residual differences to output differences, and is `(1 - omega_unseen) I` before there are any. It is stored as a dense matrix of size² entries:
-/// for small interfaces, and for tests.
+/// `J` maps residual differences to output differences, and is `(1 - omega_unseen) I` before there are any. It is stored as a
+/// dense matrix of size² entries: for small interfaces, and for tests.
 #[derive(Debug, Clone)]
 pub struct IqnMvj {
     settings: QuasiNewton,

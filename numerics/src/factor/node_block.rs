@@ -14,7 +14,8 @@ pub(super) struct NodeBlockLu {
     fallbacks: usize,
 }
 
-/// Up to this many equations the start of threads takes up most of what they save.
+/// From here on two threads save a fifth of an iteration of the fluid or more; the start of threads takes up what they could save of
+/// much smaller systems.
 const SPLIT_ABOVE: usize = 10_000;
 
 /// More threads would wait for the top of the tree, and each takes room.

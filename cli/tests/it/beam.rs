@@ -45,6 +45,23 @@ fn first_steps_of_the_beam_cost_what_they_did() {
     ");
 }
 
+/// A small relaxation makes small changes, however far from balance the step is.
+#[test]
+fn the_residual_is_judged_beside_the_changes_where_the_scene_asks_for_it() {
+    let [changes, both] = ["changes", "changes_and_residual"].map(|criterion| {
+        let beam = beam(&[
+            "coupling.acceleration.constant.relaxation=0.1",
+            &format!("coupling.convergence.{criterion}=1e-2"),
+        ]);
+        let mut run = build::run(&beam).expect("the scene builds");
+        run.step(beam.scene.time.step.get(), &mut ()).expect("the step converges")
+    });
+    assert!(changes.largest_change < 1e-2 && both.largest_change < 1e-2);
+    assert!(both.iterations > changes.iterations, "{} and {}", both.iterations, changes.iterations);
+    // The change is a tenth of the residual.
+    assert!(both.residual < 0.3 * changes.residual, "{:e} and {:e}", both.residual, changes.residual);
+}
+
 /// Nodes of the mesh at both ends of the tip carry the load to one control point each.
 #[test]
 fn the_mesh_meets_the_beam_on_three_sides() {

@@ -5,6 +5,7 @@ mod benchmarks;
 mod checkpoint;
 mod effects;
 mod failures;
+mod field_cases;
 mod linear_tank;
 mod output;
 mod program;

@@ -1,0 +1,1 @@
+//! Structures that only look whole, held or in place.

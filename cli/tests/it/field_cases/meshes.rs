@@ -1,0 +1,1 @@
+//! Files of gmsh as other tools write them.

@@ -234,7 +234,7 @@ fn quadrilateral() -> ElementBlock {
     ElementBlock { kind: ElementKind::Quadrilateral4, groups: vec![11], nodes: vec![0, 1, 2, 3] }
 }
 
-fn name(tag: u32, name: &str) -> GroupName {
+fn name(tag: u64, name: &str) -> GroupName {
     GroupName { dimension: 1, tag, name: name.into() }
 }
 

@@ -56,15 +56,15 @@ mod header;
 mod names;
 mod numbering;
 mod orientation;
-mod part;
 mod parser;
+mod part;
 mod sides;
 mod solid;
 mod version2;
 mod version4;
 
 pub use document::{ElementBlock, GmshFile, GroupName};
-pub use part::PhysicalGroup;
 pub use element::ElementKind;
 pub use error::{ConvertError, ParseError, Position, ReadError};
 pub use fault::Fault;
+pub use part::PhysicalGroup;

@@ -20,6 +20,6 @@ pub use diagnose::{Problem, SceneError};
 pub use places::Places;
 pub use resolve::{Resolved, SCENE_FILE, load, parse, read_in};
 pub use shapes::Shapes;
-pub(crate) use shapes::{INPUT_FILES, INPUT_FOLDER, Input};
+pub(crate) use shapes::{Content, INPUT_FILES, INPUT_FOLDER, Input, Role};
 pub use write::to_toml;
 pub(crate) use write::words;

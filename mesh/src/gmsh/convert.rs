@@ -133,7 +133,9 @@ impl GmshFile {
         }
         let owners = Owners::new(groups.values().map(|(_, nodes)| (kind, &nodes[..])), [cells]);
         let is_inside = |facet: &[usize]| owners.of(kind, facet) == 2;
-        groups.retain(|_, (_, nodes)| nodes.is_empty() || !nodes.chunks_exact(kind.node_count()).all(is_inside));
+        groups.retain(|_, (_, nodes)| {
+            nodes.is_empty() || !nodes.chunks_exact(kind.node_count()).all(is_inside)
+        });
         if groups.values().all(|(_, facets)| facets.is_empty()) {
             return Err(ConvertError::NoGroups { facet: kind });
         }

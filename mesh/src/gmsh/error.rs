@@ -238,9 +238,13 @@ fn orientation_hint(kind: ElementKind) -> String {
         return "they may overlap: remesh the volume".to_owned();
     }
     format!(
-        "if they overlap, remesh; else turn the clockwise ones with gmsh's Python module (`pip install gmsh`): python3 -c \
-         \"import gmsh; gmsh.initialize(); gmsh.open('old.msh'); m = gmsh.model.mesh; m.reverseElements([e for e, z in \
-         zip(m.getElementsByType({0})[0], m.getJacobians({0}, [0, 0, 0])[0][8::9]) if z < 0]); gmsh.write('new.msh')\"",
+        "if cells overlap, remesh; else turn the clockwise ones in Python (`pip install gmsh`):\n\
+         import gmsh\n\
+         gmsh.initialize(); gmsh.open(\"old.msh\"); mesh = gmsh.model.mesh\n\
+         cells = mesh.getElementsByType({0})[0]\n\
+         z = mesh.getJacobians({0}, [0, 0, 0])[0][8::9]\n\
+         mesh.reverseElements([cell for cell, up in zip(cells, z) if up < 0])\n\
+         gmsh.write(\"new.msh\")",
         kind.code()
     )
 }
@@ -259,7 +263,10 @@ fn quoted(names: &[String]) -> String {
 
 fn regions_hint(dimension: usize, groups: &[String]) -> String {
     if groups.is_empty() {
-        return format!("it has no physical {} at all: choose none, and all cells are taken", region_word(dimension));
+        return format!(
+            "it has no physical {} at all: choose none, and all its cells are taken",
+            region_word(dimension)
+        );
     }
     format!("it has {}", quoted(groups))
 }

@@ -64,10 +64,10 @@ fn check_text(cursor: &Cursor) -> Result<(), ParseError> {
 
 /// Opens `$MeshFormat`; comments and sections of other tools may stand before it.
 fn find(cursor: &mut Cursor) -> Result<(), ParseError> {
-    cursor.skip(|byte| byte.is_ascii_whitespace());
-    if cursor.rest().is_empty() {
+    if cursor.rest().trim_ascii().is_empty() {
         return Err(cursor.fail(Fault::Empty));
     }
+    cursor.skip(|byte| byte.is_ascii_whitespace());
     let first = cursor.line().trim_ascii();
     let other = cursor.fail(Fault::NotGmsh { found: excerpt(first) });
     // $NOD opens a file of format 1.

@@ -90,8 +90,9 @@ pub(super) fn resolve(
     names: Vec<Name>,
     blocks: &[ElementBlock],
 ) -> Result<Vec<GroupName>, ParseError> {
-    let groups_of =
-        |block: &ElementBlock| block.groups.iter().map(|&tag| (block.kind.dimension(), tag)).collect::<Vec<_>>();
+    let groups_of = |block: &ElementBlock| {
+        block.groups.iter().map(|&tag| (block.kind.dimension(), tag)).collect::<Vec<_>>()
+    };
     let groups: HashSet<(usize, u64)> = blocks.iter().flat_map(groups_of).collect();
     let mut known = HashSet::new();
     let mut resolved = Vec::new();

@@ -12,7 +12,8 @@ impl GmshFile {
     #[must_use]
     pub fn is_inverted(&self, dimension: usize) -> bool {
         let blocks = self.blocks.iter().filter(|block| block.kind.dimension() == dimension);
-        let mut signs = blocks.flat_map(|block| block.elements().map(|nodes| sign(&self.points, block.kind, nodes)));
+        let mut signs =
+            blocks.flat_map(|block| block.elements().map(|nodes| sign(&self.points, block.kind, nodes)));
         let mut any = false;
         signs.all(|sign| {
             any |= sign < 0.0;

@@ -59,7 +59,9 @@ impl GmshFile {
         if names.is_empty() {
             return self.whole(dimension, regions);
         }
-        if let Some(name) = names.iter().map(AsRef::as_ref).find(|name| !regions.iter().any(|known| known == name)) {
+        if let Some(name) =
+            names.iter().map(AsRef::as_ref).find(|name| !regions.iter().any(|known| known == name))
+        {
             return Err(ConvertError::UnknownRegion { dimension, name: name.to_owned(), groups: regions });
         }
         Ok(self.restricted(dimension, |name| names.iter().any(|given| given.as_ref() == name)))
@@ -98,8 +100,11 @@ impl GmshFile {
 
     /// Keeps the cells of the chosen groups and what touches them.
     fn restricted(self, dimension: usize, is_chosen: impl Fn(&str) -> bool) -> Self {
-        let names: HashMap<u64, &str> = self.names_of(dimension).map(|group| (group.tag, &*group.name)).collect();
-        let chosen = |&tag: &u64| names.get(&tag).map_or_else(|| is_chosen(&default_name(tag)), |name| is_chosen(name));
+        let names: HashMap<u64, &str> =
+            self.names_of(dimension).map(|group| (group.tag, &*group.name)).collect();
+        let chosen = |&tag: &u64| {
+            names.get(&tag).map_or_else(|| is_chosen(&default_name(tag)), |name| is_chosen(name))
+        };
         let mut blocks: Vec<ElementBlock> = self
             .blocks
             .iter()
@@ -115,7 +120,9 @@ impl GmshFile {
         let (touching, all) = (tags(sides.iter()), tags(self.blocks.iter().filter(below)));
         let names = self.names.iter().filter(|group| match group.dimension {
             of_group if of_group == dimension => is_chosen(&group.name),
-            of_group if of_group + 1 == dimension => touching.contains(&group.tag) || !all.contains(&group.tag),
+            of_group if of_group + 1 == dimension => {
+                touching.contains(&group.tag) || !all.contains(&group.tag)
+            }
             _ => true,
         });
         let names = names.cloned().collect();

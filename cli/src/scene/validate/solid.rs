@@ -6,13 +6,27 @@ use partita_structure::Space;
 use super::{Check, structure};
 use crate::build;
 use crate::scene::finding::Finding;
+use crate::scene::shapes::Content;
 use crate::scene::schema::{Probe, Real, Scene, Structure};
 
 /// The structure's space against what the scene says about it.
-pub(super) fn check(check: &mut Check<'_>, scene: &Scene, of_scene: &Structure, space: &Space<2>) {
+pub(super) fn check(
+    check: &mut Check<'_>,
+    scene: &Scene,
+    of_scene: &Structure,
+    space: &Space<2>,
+    file: Option<&Content>,
+) {
     if let Space::Lagrange(mesh) = space {
         let names: Vec<&str> = mesh.groups().iter().map(|group| group.name.as_str()).collect();
-        structure::known_parts(check, of_scene, "mesh", &names);
+        structure::known_parts(check, of_scene, "mesh", &names, file);
+        if scene.fluid.is_some() && of_scene.wetted.is_empty() {
+            check.add(
+                Finding::new("no group of the structure touches the fluid")
+                    .mark_if(check.key(&["structure"]), "`wetted` is missing or empty")
+                    .hint(format!("name those that do in `wetted`; groups of the mesh: {}", names.join(", "))),
+            );
+        }
     }
     for (name, probe) in &scene.output.probes {
         match (probe, space) {

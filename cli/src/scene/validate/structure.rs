@@ -5,6 +5,7 @@ use partita_numerics::time::GeneralizedAlpha;
 use super::Check;
 use crate::nearest::nearest;
 use crate::scene::finding::Finding;
+use crate::scene::shapes::Content;
 use crate::scene::schema::{Geometry, Part, Structure, StructureTimeScheme};
 
 /// Control points of a patch; more would not fit any machine the program is written for.
@@ -13,7 +14,7 @@ const MOST_POINTS: f64 = 1e8;
 pub(super) fn check(check: &mut Check<'_>, structure: &Structure, coupled: bool) {
     size(check, structure);
     if let Some(sides) = structure.geometry.sides() {
-        known_parts(check, structure, "patch", &sides);
+        known_parts(check, structure, "patch", &sides, None);
     }
     twice(check, "clamped", &structure.clamped);
     twice(check, "wetted", &structure.wetted);
@@ -33,7 +34,8 @@ pub(super) fn check(check: &mut Check<'_>, structure: &Structure, coupled: bool)
         );
     }
     match structure.wetted.first() {
-        None if coupled => check.add(
+        // The groups of a mesh are named when its file was read.
+        None if coupled && !matches!(structure.geometry, Geometry::Gmsh(_)) => check.add(
             Finding::new("no side of the structure touches the fluid")
                 .mark_if(check.key(&["structure"]), "`wetted` is missing or empty")
                 .hint("name the sides that touch the fluid: `wetted = [\"top\"]`"),
@@ -70,18 +72,25 @@ fn size(check: &mut Check<'_>, structure: &Structure) {
     }
 }
 
-/// Clamped and wetted parts against the names that the boundary has.
-pub(super) fn known_parts(check: &mut Check<'_>, structure: &Structure, what: &str, names: &[&str]) {
+/// Clamped and wetted parts against the names that the boundary has, and the file that it was read from.
+pub(super) fn known_parts(
+    check: &mut Check<'_>,
+    structure: &Structure,
+    what: &str,
+    names: &[&str],
+    file: Option<&Content>,
+) {
     for (key, parts) in [("clamped", &structure.clamped), ("wetted", &structure.wetted)] {
         for part in parts.iter().map(Part::name).filter(|part| !names.contains(part)) {
-            check.add(
-                Finding::new(format!("the {what} of the structure has no part `{part}`"))
-                    .mark_if(check.value(&["structure", key]), "unknown part")
-                    .hint(match nearest(part, names.iter().copied()) {
+            let finding = file.and_then(|file| file.elsewhere(part, names)).unwrap_or_else(|| {
+                Finding::new(format!("the {what} of the structure has no part `{part}`")).hint(
+                    match nearest(part, names.iter().copied()) {
                         Some(near) => format!("did you mean `{near}`?"),
                         None => format!("parts of its boundary: {}", names.join(", ")),
-                    }),
-            );
+                    },
+                )
+            });
+            check.add(finding.mark_if(check.value(&["structure", key]), "unknown part"));
         }
     }
 }

@@ -5,9 +5,10 @@
 
 mod added_mass;
 mod flow;
+mod formulas;
 mod kind;
 mod motion;
-pub(crate) mod scales;
+mod scales;
 mod structure;
 mod tolerances;
 
@@ -72,6 +73,7 @@ pub fn of(resolved: &Resolved, run: &Run) -> Vec<Warning> {
         }
     }
     in_time(&mut found, run);
+    formulas::check(&mut found);
     found.warnings
 }
 

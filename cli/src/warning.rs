@@ -3,7 +3,14 @@
 //! `check` and the start of `run` print them. A scene accepts one by its name, with a reason (`[warnings.accept]`); with
 //! `--deny-warnings` any other is an error. A warning never changes a number.
 
+mod added_mass;
+mod flow;
+mod formulas;
 mod kind;
+mod motion;
+mod scales;
+mod structure;
+mod tolerances;
 
 use std::fmt;
 
@@ -13,6 +20,7 @@ pub use kind::Kind;
 
 use crate::build::Run;
 use crate::scene::Resolved;
+use scales::FlowScales;
 
 /// One warning.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -48,9 +56,45 @@ impl fmt::Display for Warning {
 /// All warnings about a scene and the run that was built from it, accepted ones included.
 #[must_use]
 pub fn of(resolved: &Resolved, run: &Run) -> Vec<Warning> {
-    let found = Found { resolved, warnings: Vec::new() };
-    let _ = run;
+    let mut found = Found { resolved, warnings: Vec::new() };
+    let flow = FlowScales::of(resolved, run);
+    if let (Some(fluid), Some(solver), Some(flow)) = (&resolved.scene.fluid, run.first().field(), &flow) {
+        flow::check(&mut found, fluid, flow);
+        motion::check(&mut found, fluid, solver.mesh());
+        tolerances::newton(&mut found, "fluid", &fluid.newton, flow.pressure * flow.length);
+    }
+    if let (Some(structure), Some(solver)) = (&resolved.scene.structure, run.second().field()) {
+        let pressure = structure::pressure(&found, structure, solver, flow.as_ref());
+        let extent = scales::size(scales::extents(solver.space().points()));
+        structure::modulus(&mut found, structure, pressure);
+        tolerances::newton(&mut found, "structure", &structure.newton, pressure * extent);
+        if let Some(coupling) = &resolved.scene.coupling {
+            tolerances::coupling(&mut found, coupling, extent);
+        }
+    }
+    in_time(&mut found, run);
+    formulas::check(&mut found);
     found.warnings
+}
+
+/// What the first vibration of the structure tells of the step and of the coupling.
+fn in_time(found: &mut Found<'_>, run: &Run) {
+    let scene = &found.resolved.scene;
+    let (Some(structure), Some(solver)) = (&scene.structure, run.second().field()) else { return };
+    if scene.fluid.is_some() && scene.moves_the_interface() {
+        structure::damping(found, structure);
+    }
+    let Some(mode) = solver.first_mode() else { return };
+    structure::step(found, mode.period());
+    if let (Some(fluid), Some(coupling), Some(of_fluid)) =
+        (&scene.fluid, &scene.coupling, run.first().field())
+        && let Some(scheme) = added_mass::scheme(fluid)
+    {
+        let tolerance = coupling.projection_tolerance.get();
+        if let Some(ratio) = added_mass::ratio(found, (of_fluid, solver), scheme, tolerance, &mode) {
+            added_mass::check(found, coupling, ratio);
+        }
+    }
 }
 
 /// Those that the scene does not accept.
@@ -66,7 +110,6 @@ struct Found<'a> {
 
 impl Found<'_> {
     /// Adds a warning about the key at a path, or its nearest ancestor that the scene spells out.
-    #[allow(dead_code, reason = "the checks follow")]
     fn warn(&mut self, kind: Kind, path: &[&str], what: impl Into<String>, remedy: impl Into<String>) {
         let accepted = self.resolved.scene.warnings.accept.get(kind.name());
         self.warnings.push(Warning {

@@ -6,9 +6,11 @@
 mod diagnose;
 mod document;
 mod finding;
+pub(crate) mod formulas;
 mod overrides;
 mod places;
 pub mod reference;
+mod repair;
 mod resolve;
 pub mod schema;
 mod shapes;

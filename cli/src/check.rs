@@ -95,8 +95,11 @@ impl Page {
         let (word, sign) = if *exact < 0.0 { ("outflow", -1.0) } else { ("inflow", 1.0) };
         let [of_mesh, of_formula] = [discrete, exact].map(|flow| six(sign * flow));
         let difference = 100.0 * (discrete / exact - 1.0);
-        let difference =
-            if difference.is_finite() && difference.abs() >= 0.05 { format!(" ({difference:+.1} %)") } else { String::new() };
+        let difference = if difference.is_finite() && difference.abs() >= 0.05 {
+            format!(" ({difference:+.1} %)")
+        } else {
+            String::new()
+        };
         self.line(
             "",
             format!(

@@ -26,7 +26,9 @@ pub(super) fn space(
         Geometry::Rectangle(patch) => (rectangle(patch).and_then(sound), ["rectangle", ""]),
         Geometry::Arc(patch) => (arc(patch).and_then(sound), ["arc", ""]),
         Geometry::Curve(patch) => (strip(patch).and_then(sound), ["curve", ""]),
-        Geometry::Spline(spline) => (from_file(spline, folder, &mut shapes.inputs).and_then(sound), ["spline", "file"]),
+        Geometry::Spline(spline) => {
+            (from_file(spline, folder, &mut shapes.inputs).and_then(sound), ["spline", "file"])
+        }
         Geometry::Gmsh(mesh) => (solid(mesh, folder, shapes, check), ["gmsh", "file"]),
     };
     let place = ["structure", "geometry", place[0], place[1]];

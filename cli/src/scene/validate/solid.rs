@@ -6,8 +6,8 @@ use partita_structure::Space;
 use super::{Check, structure};
 use crate::build;
 use crate::scene::finding::Finding;
-use crate::scene::shapes::Content;
 use crate::scene::schema::{Probe, Real, Scene, Structure};
+use crate::scene::shapes::Content;
 
 /// The structure's space against what the scene says about it.
 pub(super) fn check(
@@ -24,7 +24,10 @@ pub(super) fn check(
             check.add(
                 Finding::new("no group of the structure touches the fluid")
                     .mark_if(check.key(&["structure"]), "`wetted` is missing or empty")
-                    .hint(format!("name those that do in `wetted`; groups of the mesh: {}", names.join(", "))),
+                    .hint(format!(
+                        "name those that do in `wetted`; groups of the mesh: {}",
+                        names.join(", ")
+                    )),
             );
         }
     }

@@ -5,8 +5,8 @@ use partita_numerics::time::GeneralizedAlpha;
 use super::Check;
 use crate::nearest::nearest;
 use crate::scene::finding::Finding;
-use crate::scene::shapes::Content;
 use crate::scene::schema::{Geometry, Part, Structure, StructureTimeScheme};
+use crate::scene::shapes::Content;
 
 /// Control points of a patch; more would not fit any machine the program is written for.
 const MOST_POINTS: f64 = 1e8;
@@ -83,12 +83,13 @@ pub(super) fn known_parts(
     for (key, parts) in [("clamped", &structure.clamped), ("wetted", &structure.wetted)] {
         for part in parts.iter().map(Part::name).filter(|part| !names.contains(part)) {
             let finding = file.and_then(|file| file.elsewhere(part, names)).unwrap_or_else(|| {
-                Finding::new(format!("the {what} of the structure has no part `{part}`")).hint(
-                    match nearest(part, names.iter().copied()) {
-                        Some(near) => format!("did you mean `{near}`?"),
-                        None => format!("parts of its boundary: {}", names.join(", ")),
-                    },
-                )
+                Finding::new(format!("the {what} of the structure has no part `{part}`")).hint(match nearest(
+                    part,
+                    names.iter().copied(),
+                ) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("parts of its boundary: {}", names.join(", ")),
+                })
             });
             check.add(finding.mark_if(check.value(&["structure", key]), "unknown part"));
         }

@@ -26,7 +26,9 @@ pub fn describe(resolved: &Resolved, run: &Run) -> String {
     page.line("time", format!("{steps} steps of {step} s, to t = {} s", short(steps as f64 * step.get())));
     if let (Some(scene), Some(fluid)) = (&scene.fluid, fluid) {
         page.fluid(scene, fluid);
-        inflow::all(&resolved.scene, fluid).iter().for_each(|inflow| page.inflow(inflow));
+        for inflow in inflow::all(&resolved.scene, fluid) {
+            page.inflow(&inflow);
+        }
         page.file(resolved.shapes.fluid_file.as_ref());
     }
     if let (Some(scene), Some(structure)) = (&scene.structure, structure) {

@@ -62,7 +62,7 @@ impl<const D: usize> FluidSolver<D> {
     /// sum over its facets of (u_h, n)
     /// ```
     ///
-    /// with the prescribed velocities u_h at the nodes, linear between them. A node that a neighbouring group holds has
+    /// with the prescribed velocities `u_h` at the nodes, linear between them. A node that a neighbouring group holds has
     /// the value of that group: next to a no-slip wall a uniform inflow loses the flow of half an edge.
     #[must_use]
     pub fn prescribed_flow_rate(&self, group: &str, time: f64) -> Option<f64> {

@@ -60,7 +60,7 @@ fn from_file(
     content.turned = part.is_inverted(2);
     content.touching(&part);
     let mut made = part.into_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
-    content.bounds(made.groups().iter().map(|group| &*group.name));
+    content.bounds(&made.groups().iter().map(|group| &*group.name).collect::<Vec<_>>());
     shapes.fluid_file = Some(content);
     if mesh.refine > MOST_REFINEMENTS {
         return Err(Finding::new(format!(

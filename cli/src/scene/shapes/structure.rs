@@ -56,7 +56,7 @@ fn solid(
     content.turned = part.is_inverted(2);
     content.touching(&part);
     let made = part.into_solid_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
-    content.bounds(made.groups().iter().map(|group| &*group.name));
+    content.bounds(&made.groups().iter().map(|group| &*group.name).collect::<Vec<_>>());
     shapes.structure_file = Some(content);
     shapes.inputs.push(Input { name: SOLID_FILE, bytes });
     Ok(Space::Lagrange(made))

@@ -1,5 +1,7 @@
 //! What a scene is, in words and numbers, before it runs.
 
+mod balance;
+
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -16,11 +18,14 @@ use crate::scene::{Resolved, words};
 /// line is `scene is sound`.
 ///
 /// # Errors
-/// When the parts of the scene do not fit together.
+/// When the parts of the scene do not fit together, or an enclosed fluid would not keep its volume.
 pub fn describe(resolved: &Resolved) -> Result<String, BuildError> {
     let run = build::run(resolved)?;
     let scene = &resolved.scene;
     let (fluid, structure) = (run.first().field(), run.second().field());
+    if let Some(fluid) = fluid {
+        balance::check(fluid, &scene.time)?;
+    }
     let mut page = Page { text: format!("{}\n", scene.title) };
     let (steps, step) = (scene.time.steps.get(), scene.time.step);
     page.line("time", format!("{steps} steps of {step} s, to t = {} s", short(steps as f64 * step.get())));

@@ -22,6 +22,7 @@
 //! forces that hold the values.
 
 mod assembly;
+mod balance;
 mod boundary;
 mod error;
 mod force;

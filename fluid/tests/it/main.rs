@@ -4,6 +4,7 @@
 
 mod allocation;
 mod balance;
+mod closed;
 mod common;
 mod conditions;
 mod errors;

@@ -65,10 +65,8 @@ fn backflow(check: &mut Check<'_>, fluid: &Fluid) {
 }
 
 /// An incompressible fluid needs one place where its pressure is known.
-fn pressure(check: &mut Check<'_>, fluid: &Fluid, is_moved: bool) {
+fn pressure(check: &mut Check<'_>, fluid: &Fluid, is_elastic: bool) {
     let opening = fluid.boundary.iter().find(|(_, condition)| is_open(condition)).map(|(group, _)| group);
-    let moves =
-        is_moved || fluid.boundary.values().any(|condition| matches!(condition, Condition::WallMotion(_)));
     match (opening, &fluid.pressure_pin) {
         (Some(group), Some(_)) => check.add(
             Finding::new("the pressure is fixed twice")
@@ -76,11 +74,11 @@ fn pressure(check: &mut Check<'_>, fluid: &Fluid, is_moved: bool) {
                 .mark_if(check.key(&["fluid", "boundary", group]), "once here")
                 .hint("leave out `pressure_pin`; it is for a fluid without any outflow"),
         ),
-        (None, _) if moves => check.add(
-            Finding::new("the fluid is enclosed, and its boundary moves")
+        (None, _) if is_elastic => check.add(
+            Finding::new("the fluid is enclosed, and an elastic structure moves its boundary")
                 .mark_if(check.key(&["fluid", "boundary"]), "every group prescribes the velocity")
                 .hint(
-                    "an incompressible fluid cannot give way, and its pressure has no level: \
+                    "an incompressible fluid keeps its volume, which the iterates of a structure do not: \
                      make one group \"stress_free\" or \"do_nothing\"",
                 ),
         ),

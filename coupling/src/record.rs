@@ -5,7 +5,7 @@
 
 use std::ops::AddAssign;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 use crate::accelerate::Proposal;
 use crate::participant::{Change, Effort, NewtonLimit, PhaseTimes, Step, WorkDetails};
@@ -229,6 +229,7 @@ impl StepHistory {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct FieldSeconds {
     /// The whole call \[s\].
+    #[serde(serialize_with = "to_the_microsecond")]
     pub total: f64,
     /// Phases inside it.
     pub phases: PhaseTimes,
@@ -240,8 +241,10 @@ pub struct Seconds {
     /// The first and the second field.
     pub fields: [FieldSeconds; 2],
     /// `H x` and `H^T f` \[s\].
+    #[serde(serialize_with = "to_the_microsecond")]
     pub transfer: f64,
     /// The accelerator \[s\].
+    #[serde(serialize_with = "to_the_microsecond")]
     pub acceleration: f64,
 }
 
@@ -254,6 +257,12 @@ impl AddAssign for Seconds {
         self.transfer += other.transfer;
         self.acceleration += other.acceleration;
     }
+}
+
+/// A clock knows no more, and a third of a record's bytes would be such digits.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature is serde's")]
+pub(crate) fn to_the_microsecond<S: Serializer>(seconds: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64((seconds * 1e6).round() / 1e6)
 }
 
 /// JSON knows no infinity: a ratio to zero is written as `null` and read back as infinity.
@@ -344,6 +353,19 @@ mod tests {
         assert_eq!((record.fields[0].details.tangents, record.fields[0].details.mesh_solves), (4, 2));
         assert_eq!(record.seconds.transfer.to_bits(), 2.0_f64.to_bits());
         assert_eq!(record.without_seconds().seconds, Seconds::default());
+    }
+
+    #[test]
+    fn seconds_are_written_to_the_microsecond() {
+        let phases = PhaseTimes { assembly: 0.002_449_383_999_999_999_8, ..PhaseTimes::default() };
+        let field = FieldSeconds { total: 1.234_567_89, phases };
+        let seconds = Seconds { fields: [field; 2], transfer: 4e-7, acceleration: 6e-7 };
+        let line = serde_json::to_string(&seconds).unwrap();
+        for needed in
+            ["\"total\":1.234568,", "\"assembly\":0.002449,", "\"transfer\":0.0,", "\"acceleration\":1e-6"]
+        {
+            assert!(line.contains(needed), "{needed} is not in {line}");
+        }
     }
 
     #[test]

@@ -9,23 +9,28 @@ use partita_fluid::FluidSolver;
 use partita_mesh::{Mesh, Place, quality, simplex};
 use partita_structure::{Space, StructureSolver};
 
-use crate::build::{self, BuildError};
+use crate::build::{BuildError, Run};
 use crate::memory;
 use crate::scene::schema::{Condition, Coupling, Direction, Fluid, Part, Structure, plain};
 use crate::scene::{Resolved, words};
 
-/// Builds the scene and describes it: title, meshes with their boundary groups, splines, interface, choices. The last
-/// line is `scene is sound`.
+/// Looks ahead to what a run would stop at in a later step: an enclosed fluid that does not keep its volume.
 ///
 /// # Errors
-/// When the parts of the scene do not fit together, or an enclosed fluid would not keep its volume.
-pub fn describe(resolved: &Resolved) -> Result<String, BuildError> {
-    let run = build::run(resolved)?;
+/// What the run would stop at, with its time.
+pub fn look_ahead(resolved: &Resolved, run: &Run) -> Result<(), BuildError> {
+    match run.first().field() {
+        Some(fluid) => Ok(balance::check(fluid, &resolved.scene.time)?),
+        None => Ok(()),
+    }
+}
+
+/// Describes a scene and the run that was built from it: title, meshes with their boundary groups, splines, interface,
+/// choices. The last line is `scene is sound`.
+#[must_use]
+pub fn describe(resolved: &Resolved, run: &Run) -> String {
     let scene = &resolved.scene;
     let (fluid, structure) = (run.first().field(), run.second().field());
-    if let Some(fluid) = fluid {
-        balance::check(fluid, &scene.time)?;
-    }
     let mut page = Page { text: format!("{}\n", scene.title) };
     let (steps, step) = (scene.time.steps.get(), scene.time.step);
     page.line("time", format!("{steps} steps of {step} s, to t = {} s", short(steps as f64 * step.get())));
@@ -42,7 +47,7 @@ pub fn describe(resolved: &Resolved) -> Result<String, BuildError> {
     }
     page.line("memory", format!("about {}", memory::words(memory_of(fluid, structure))));
     page.text.push_str("scene is sound\n");
-    Ok(page.text)
+    page.text
 }
 
 fn memory_of(fluid: Option<&FluidSolver<2>>, structure: Option<&StructureSolver<2>>) -> f64 {

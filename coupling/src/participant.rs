@@ -39,16 +39,12 @@ pub enum NewtonLimit {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct PhaseTimes {
     /// Residual and tangent \[s\].
-    #[serde(serialize_with = "crate::record::to_the_microsecond")]
     pub assembly: f64,
     /// Numeric factorization \[s\].
-    #[serde(serialize_with = "crate::record::to_the_microsecond")]
     pub factorization: f64,
     /// Triangular solves \[s\].
-    #[serde(serialize_with = "crate::record::to_the_microsecond")]
     pub solve: f64,
     /// Mesh motion \[s\].
-    #[serde(serialize_with = "crate::record::to_the_microsecond")]
     pub mesh_motion: f64,
 }
 

@@ -5,7 +5,7 @@
 
 use std::ops::AddAssign;
 
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use crate::accelerate::Proposal;
 use crate::participant::{Change, Effort, NewtonLimit, PhaseTimes, Step, WorkDetails};
@@ -177,7 +177,7 @@ impl StepRecord {
             residual: last.residual,
             largest_change: last.largest_change(),
             fields: [history.totals(0), history.totals(1)],
-            seconds,
+            seconds: seconds.to_the_microsecond(),
         }
     }
 
@@ -229,7 +229,6 @@ impl StepHistory {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct FieldSeconds {
     /// The whole call \[s\].
-    #[serde(serialize_with = "to_the_microsecond")]
     pub total: f64,
     /// Phases inside it.
     pub phases: PhaseTimes,
@@ -241,11 +240,23 @@ pub struct Seconds {
     /// The first and the second field.
     pub fields: [FieldSeconds; 2],
     /// `H x` and `H^T f` \[s\].
-    #[serde(serialize_with = "to_the_microsecond")]
     pub transfer: f64,
     /// The accelerator \[s\].
-    #[serde(serialize_with = "to_the_microsecond")]
     pub acceleration: f64,
+}
+
+impl Seconds {
+    /// The same to the microsecond: a clock knows no more, and a fifth of a record's bytes would be such digits.
+    #[must_use]
+    pub fn to_the_microsecond(mut self) -> Self {
+        let round = |seconds: &mut f64| *seconds = (*seconds * 1e6).round() / 1e6;
+        for FieldSeconds { total, phases } in &mut self.fields {
+            let PhaseTimes { assembly, factorization, solve, mesh_motion } = phases;
+            [total, assembly, factorization, solve, mesh_motion].into_iter().for_each(round);
+        }
+        [&mut self.transfer, &mut self.acceleration].into_iter().for_each(round);
+        self
+    }
 }
 
 impl AddAssign for Seconds {
@@ -257,12 +268,6 @@ impl AddAssign for Seconds {
         self.transfer += other.transfer;
         self.acceleration += other.acceleration;
     }
-}
-
-/// A clock knows no more, and a third of a record's bytes would be such digits.
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature is serde's")]
-pub(crate) fn to_the_microsecond<S: Serializer>(seconds: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_f64((seconds * 1e6).round() / 1e6)
 }
 
 /// JSON knows no infinity: a ratio to zero is written as `null` and read back as infinity.
@@ -356,11 +361,11 @@ mod tests {
     }
 
     #[test]
-    fn seconds_are_written_to_the_microsecond() {
+    fn seconds_are_rounded_to_the_microsecond() {
         let phases = PhaseTimes { assembly: 0.002_449_383_999_999_999_8, ..PhaseTimes::default() };
         let field = FieldSeconds { total: 1.234_567_89, phases };
         let seconds = Seconds { fields: [field; 2], transfer: 4e-7, acceleration: 6e-7 };
-        let line = serde_json::to_string(&seconds).unwrap();
+        let line = serde_json::to_string(&seconds.to_the_microsecond()).unwrap();
         for needed in
             ["\"total\":1.234568,", "\"assembly\":0.002449,", "\"transfer\":0.0,", "\"acceleration\":1e-6"]
         {

@@ -22,6 +22,8 @@ pub(crate) fn side_by_side(title: &str, panels: [(&str, &Grid); 2], count: Count
         let x = LEFT + index as f64 * (panel_width + GAP);
         panel(&mut svg, [x, TOP], heading, grid, count, range);
     }
+    let foot = [LEFT, TOP + rows as f64 * CELL[1] + 18.0];
+    svg.text(foot, 11.0, Anchor::Start, Colour::GREY, "rows: N^f, columns: N^s");
     let (low, high) = range;
     let labels = [0.0, 0.5, 1.0].map(|part| {
         let value = low as f64 + part * (high - low) as f64;
@@ -51,13 +53,6 @@ fn panel(
         let centre = x + (column as f64 + 0.5) * CELL[0];
         svg.text([centre, y - 6.0], 11.0, Anchor::Middle, Colour::GREY, &limit.to_string());
     }
-    svg.text(
-        [x, y + rows.len() as f64 * CELL[1] + 18.0],
-        11.0,
-        Anchor::Start,
-        Colour::GREY,
-        "rows: N^f, columns: N^s",
-    );
     for (row, &fluid) in rows.iter().enumerate() {
         let top = y + row as f64 * CELL[1];
         svg.text([x - 14.0, top + 21.0], 11.0, Anchor::Middle, Colour::GREY, &fluid.to_string());

@@ -39,7 +39,7 @@ pub enum Tolerance {
     /// Part of the natural scale: for a field's residual the largest term of its equations, for the interface residual the
     /// interface displacement.
     Relative(Positive),
-    /// In the unit of what is measured: for a residual of forces N, in two dimensions N/m, for the interface residual m.
+    /// In the unit of what is measured: for a residual of forces N, in two dimensions N/m; for the interface residual m.
     Absolute(Positive),
 }
 

@@ -125,8 +125,8 @@ fn an_enclosed_fluid_is_refused() {
         ·            ╰── every group prescribes the velocity
      17 │ left = "no_slip"
         ╰────
-      help: an incompressible fluid keeps its volume, which the iterates of a structure do not: make one
-            group "stress_free" or "do_nothing"
+      help: an incompressible fluid keeps its volume, which the iterates of a structure do not: make
+            one group "stress_free" or "do_nothing"
     "#);
 }
 

@@ -17,7 +17,13 @@ pub(super) fn check(fluid: &FluidSolver<2>, time: &Time) -> Result<(), FluidErro
         return Ok(());
     }
     let dt = time.step.get();
-    steps(time.steps.get()).into_iter().try_for_each(|step| fluid.check_prescribed(step as f64 * dt, dt))
+    steps(time.steps.get()).into_iter().try_for_each(|step| fluid.check_prescribed(end_of(step, dt), dt))
+}
+
+/// The time at the end of a step \[s\], to twelve digits: 6 times 0.1 is 0.6.
+fn end_of(step: usize, dt: f64) -> f64 {
+    let time = step as f64 * dt;
+    format!("{time:.11e}").parse().unwrap_or(time)
 }
 
 /// The steps that are looked at, counted from 1, rising.
@@ -42,5 +48,9 @@ mod tests {
             many.starts_with(&[1, 2, 3]) && many.last() == Some(&100_000) && many.len() == FIRST + SAMPLES
         );
         assert!(many.is_sorted());
+        assert_eq!(
+            [(6, 0.1), (51, 0.1), (3, 1e-9)].map(|(step, dt)| end_of(step, dt).to_string()),
+            ["0.6", "5.1", "0.000000003"]
+        );
     }
 }

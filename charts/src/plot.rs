@@ -52,7 +52,7 @@ const SMALL: f64 = 11.0;
 const LINE: f64 = 16.0;
 const SAMPLE: f64 = 24.0;
 const WORDS: f64 = 32.0;
-const MOST_WORDS: f64 = 200.0;
+const MOST_WORDS: f64 = 250.0;
 /// Least distance of the words at the ends of dashed lines.
 const APART: f64 = 13.0;
 

@@ -12,7 +12,7 @@ use partita_structure::{MaterialError, StructureError, StructureSolver};
 use thiserror::Error;
 
 pub(crate) use fluid::nearest_node;
-pub(crate) use structure::{boundary, place_in};
+pub(crate) use structure::{boundary, place_in, side, supports};
 
 use crate::adapt::{Adapter, Slot};
 use crate::scene::{Resolved, schema};

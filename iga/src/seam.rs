@@ -159,6 +159,21 @@ pub struct Contact<const D: usize> {
     pub place: [f64; D],
 }
 
+impl<const D: usize> Contact<D> {
+    /// What to do about it.
+    #[must_use]
+    pub fn remedy(&self) -> &'static str {
+        let [side, other] = self.sides;
+        if side == opposite(other) {
+            "sides are joined where they have the same control points in the same order and weights in the same ratios: \
+             copy those of one side to the other, or leave a gap"
+        } else {
+            "nothing would hold the two together: only opposite sides with the same control points are joined; draw the \
+             shape another way, or leave a gap"
+        }
+    }
+}
+
 impl<const D: usize> fmt::Display for Contact<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [side, other] = self.sides;

@@ -1,18 +1,77 @@
 //! Whether the structure's mesh has the parts that the scene names, and its points lie where the scene looks.
 
 use partita_mesh::Place;
-use partita_structure::Space;
+use partita_structure::rigid::{self, FreePiece};
+use partita_structure::{Patch, Space};
 
 use super::{Check, structure};
 use crate::build;
 use crate::scene::finding::Finding;
-use crate::scene::schema::{Probe, Real, Scene, Structure};
+use crate::scene::schema::{Probe, Real, Scene, Structure, StructureTimeScheme};
+
+/// Sides that a seam joins are inside of the structure.
+fn joined(check: &mut Check<'_>, of_scene: &Structure, patch: &Patch<2>) {
+    for (place, name) in structure::named_parts(check, of_scene) {
+        let Some(partner) = build::side(name).and_then(|side| patch.seams().partner(side)) else { continue };
+        check.add(
+            Finding::new(format!(
+                "the structure closes on itself: its sides `{name}` and `{partner}` are joined"
+            ))
+            .mark_if(place, "no side of its boundary")
+            .mark_if(check.value(&["structure", "geometry"]), "both sides are the same line")
+            .hint(format!("name other sides, or leave a gap between `{name}` and `{partner}`")),
+        );
+    }
+}
+
+/// Without inertia every rigid motion must be held, or the equations have no solution.
+fn unheld(check: &mut Check<'_>, of_scene: &Structure, space: &Space<2>) {
+    let (clamped, held) = build::supports(space, of_scene);
+    if clamped.is_empty() && held.is_empty() {
+        return;
+    }
+    let Ok(held) = space.held_dofs(&clamped, &held) else { return };
+    for piece in rigid::free_pieces(space, &held).iter().take(MOST_PIECES) {
+        check.add(
+            Finding::new(format!("{} of a quasi-static structure {}", piece_of(piece), what_is_free(piece)))
+                .mark_if(check.value(&["structure", "time_scheme"]), "no inertia holds it")
+                .mark_if(check.value(&["structure", "geometry"]), "of this")
+                .hint(HOLD),
+        );
+    }
+}
+
+/// Free pieces that are named one by one.
+pub(crate) const MOST_PIECES: usize = 3;
+
+/// How a free piece is held.
+pub(crate) const HOLD: &str = "name a part of its boundary in `clamped` or `held`; pieces of a mesh hold together where they \
+     share nodes (`Coherence;` or `BooleanFragments` in the .geo file)";
+
+/// A piece, its size and its place.
+pub(crate) fn piece_of(piece: &FreePiece) -> String {
+    let cells = if piece.cells == 1 { "1 element".to_owned() } else { format!("{} elements", piece.cells) };
+    format!("the piece of {cells} round {}", Place::from(piece.place))
+}
+
+/// What a piece can do: `is held nowhere: it can move in x, ...`.
+pub(crate) fn what_is_free(piece: &FreePiece) -> String {
+    let motions: Vec<String> = piece.motions.iter().map(ToString::to_string).collect();
+    let held = if piece.is_loose() { "is held nowhere" } else { "is not held enough" };
+    format!("{held}: it can {}", motions.join(" and "))
+}
 
 /// The structure's space against what the scene says about it.
 pub(super) fn check(check: &mut Check<'_>, scene: &Scene, of_scene: &Structure, space: &Space<2>) {
-    if let Space::Lagrange(mesh) = space {
-        let names: Vec<&str> = mesh.groups().iter().map(|group| group.name.as_str()).collect();
-        structure::known_parts(check, of_scene, "mesh", &names);
+    match space {
+        Space::Lagrange(mesh) => {
+            let names: Vec<&str> = mesh.groups().iter().map(|group| group.name.as_str()).collect();
+            structure::known_parts(check, of_scene, "mesh", &names);
+        }
+        Space::Patch(patch) => joined(check, of_scene, patch),
+    }
+    if of_scene.time_scheme == StructureTimeScheme::QuasiStatic {
+        unheld(check, of_scene, space);
     }
     for (name, probe) in &scene.output.probes {
         match (probe, space) {

@@ -12,6 +12,7 @@ use super::diagnose::SceneError;
 use super::document::{Document, Sources};
 use super::finding::Finding;
 use super::overrides::Override;
+use super::places::Places;
 use super::schema::Scene;
 use super::shapes::{self, Shapes};
 use super::translate::translate;
@@ -29,6 +30,8 @@ pub struct Resolved {
     pub name: String,
     /// The file it was read from.
     pub file: PathBuf,
+    /// Where its keys stand.
+    pub places: Places,
 }
 
 impl Resolved {
@@ -65,14 +68,14 @@ pub fn load(path: &Path, overrides: &[String]) -> Result<Resolved, SceneError> {
 ///
 /// [`SceneError`] with every place that is wrong and how to mend it.
 pub fn read_in(folder: &Path, name: &str, text: &str, overrides: &[String]) -> Result<Resolved, SceneError> {
-    let (scene, shapes) = resolve(name, text, overrides, |sources| {
+    let (scene, shapes, places) = resolve(name, text, overrides, |sources| {
         let (scene, document) = check(sources)?;
         let mut findings = Check::new(&document);
         let shapes = Shapes::make(&scene, folder, &mut findings);
         validate_shapes(&mut findings, &scene, &shapes);
-        findings.done((scene, shapes))
+        findings.done((scene, shapes, Places::of(&document, sources)))
     })?;
-    Ok(Resolved { scene, shapes, name: name.to_owned(), file: folder.join(name) })
+    Ok(Resolved { scene, shapes, name: name.to_owned(), file: folder.join(name), places })
 }
 
 /// Reads the scene in a text; `name` is what messages call it. Files that it names are not looked at.

@@ -1,12 +1,12 @@
 //! Whether the structure's mesh has the parts that the scene names, and its points lie where the scene looks.
 
 use partita_mesh::Place;
-use partita_structure::rigid::{self, FreePiece};
-use partita_structure::{Patch, Space};
+use partita_structure::{Patch, Space, rigid};
 
 use super::{Check, structure};
 use crate::build;
 use crate::scene::finding::Finding;
+use crate::scene::free::{HOLD, MOST_PIECES, piece_of, what_is_free};
 use crate::scene::schema::{Probe, Real, Scene, Structure, StructureTimeScheme};
 
 /// Sides that a seam joins are inside of the structure.
@@ -39,26 +39,6 @@ fn unheld(check: &mut Check<'_>, of_scene: &Structure, space: &Space<2>) {
                 .hint(HOLD),
         );
     }
-}
-
-/// Free pieces that are named one by one.
-pub(crate) const MOST_PIECES: usize = 3;
-
-/// How a free piece is held.
-pub(crate) const HOLD: &str = "name a part of its boundary in `clamped` or `held`; pieces of a mesh hold together where they \
-     share nodes (`Coherence;` or `BooleanFragments` in the .geo file)";
-
-/// A piece, its size and its place.
-pub(crate) fn piece_of(piece: &FreePiece) -> String {
-    let cells = if piece.cells == 1 { "1 element".to_owned() } else { format!("{} elements", piece.cells) };
-    format!("the piece of {cells} round {}", Place::from(piece.place))
-}
-
-/// What a piece can do: `is held nowhere: it can move in x, ...`.
-pub(crate) fn what_is_free(piece: &FreePiece) -> String {
-    let motions: Vec<String> = piece.motions.iter().map(ToString::to_string).collect();
-    let held = if piece.is_loose() { "is held nowhere" } else { "is not held enough" };
-    format!("{held}: it can {}", motions.join(" and "))
 }
 
 /// The structure's space against what the scene says about it.

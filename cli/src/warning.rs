@@ -68,6 +68,7 @@ pub fn of(resolved: &Resolved, run: &Run) -> Vec<Warning> {
         let extent = scales::size(scales::extents(solver.space().points()));
         structure::modulus(&mut found, structure, pressure);
         support::pieces(&mut found, structure, solver);
+        support::gap(&mut found, solver);
         tolerances::newton(&mut found, "structure", &structure.newton, pressure * extent);
         if let Some(coupling) = &resolved.scene.coupling {
             tolerances::coupling(&mut found, coupling, extent);

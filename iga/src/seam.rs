@@ -17,19 +17,18 @@
 //!
 //! Across a seam such a field is continuous and no more, as at an inner knot of full multiplicity.
 
-use std::fmt;
+mod contact;
 
-use crate::project::Projector;
 use crate::side::{End, Side};
 use crate::spline::Spline;
 
 /// Places closer than this share of the patch's size are one place: far above round-off, far below any gap that means
 /// something.
 const TOUCH: f64 = 1e-9;
-/// Places at which a side is compared with the others.
-const SAMPLES: usize = 33;
-/// Samples near a corner that may lie on the next side.
-const CORNER: usize = 1;
+/// A gap larger than this share of the way from one side to the other, across the patch, is meant.
+const GAP: f64 = 1e-3;
+
+pub use contact::{Contact, contact};
 
 /// Which sides of a patch are joined, and the node of each control point.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,6 +50,8 @@ impl Seams {
         let mut closed = Vec::new();
         for parameter in 0..patch.parameters() {
             let [start, end] = sides_of(parameter).map(|side| patch.side(side).1);
+            // A thin plate is no ring.
+            let touch = touch.min(GAP * length(patch, parameter));
             if coincide(patch, &start, &end, touch) {
                 closed.push(parameter);
                 start.iter().zip(&end).for_each(|(&a, &b)| unite(&mut leaders, a, b));
@@ -60,6 +61,10 @@ impl Seams {
         // The only control point of a curve's end is no side that has shrunk.
         for side in patch.sides().filter(|_| patch.parameters() > 1) {
             let on_side = patch.side(side).1;
+            // Nor is the end of a thin plate a point: all lines along it are as short.
+            let along = (0..patch.parameters()).filter(|parameter| *parameter != side.parameter);
+            let longest = along.map(|parameter| length(patch, parameter)).fold(0.0, f64::max);
+            let touch = touch.min(GAP * longest);
             let first = &patch.control_points()[on_side[0]];
             if on_side.iter().all(|&a| distance(first, &patch.control_points()[a]) <= touch) {
                 points.push(side);
@@ -113,72 +118,34 @@ impl Seams {
     }
 }
 
-/// Finds two sides of a patch that touch along a stretch without being joined: nothing holds them together there.
-///
-/// Looks at 33 places of each side, so that a contact shorter than a sixteenth of a side may be missed; sides that touch in
-/// a point are none.
+/// The first parameter whose two sides almost touch, and the largest gap between them: a ring that was not quite closed.
+/// Nothing holds the sides together there.
 #[must_use]
-pub fn contact<const D: usize>(patch: &Spline<D>, seams: &Seams) -> Option<Contact<D>> {
-    let touch = TOUCH * size(patch);
-    let free = |side: &Side| seams.partner(*side).is_none() && !seams.points().contains(side);
-    let edges: Vec<(Side, Spline<D>)> = patch.sides().filter(free).map(|s| (s, patch.side(s).0)).collect();
-    // Surfaces of volumes are left alone.
-    if edges.iter().any(|(_, edge)| edge.parameters() != 1) {
-        return None;
-    }
-    for (side, edge) in &edges {
-        let places = samples(edge);
-        for (other, target) in edges.iter().filter(|(other, _)| other != side) {
-            let boxes = element_boxes(target);
-            let near: Vec<bool> =
-                places.iter().map(|place| boxes.iter().any(|b| outside(place, b) <= touch)).collect();
-            if !near.iter().skip(CORNER).rev().skip(CORNER).any(|near| *near) {
-                continue;
-            }
-            let mut projector = Projector::new(target);
-            let on: Vec<&[f64; D]> = places[CORNER..SAMPLES - CORNER]
-                .iter()
-                .zip(&near[CORNER..])
-                .filter(|(place, near)| **near && projector.closest_point(place).distance <= touch)
-                .map(|(place, _)| place)
-                .collect();
-            if on.len() > 1 {
-                return Some(Contact { sides: [*side, *other], place: *on[on.len() / 2] });
-            }
-        }
-    }
-    None
+pub fn narrow_gap<const D: usize>(patch: &Spline<D>, seams: &Seams) -> Option<(usize, f64)> {
+    let gap = |parameter: usize| {
+        let [start, end] = sides_of(parameter).map(|side| patch.side(side).1);
+        let gaps = start.iter().zip(&end).map(|(&a, &b)| {
+            let [a, b] = [a, b].map(|index| &patch.control_points()[index]);
+            distance(a, b)
+        });
+        gaps.fold(0.0, f64::max)
+    };
+    let open = (0..patch.parameters()).filter(|parameter| !seams.closed.contains(parameter));
+    open.map(|parameter| (parameter, gap(parameter)))
+        .find(|(parameter, gap)| *gap <= GAP * length(patch, *parameter))
 }
 
-/// Two sides that touch.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Contact<const D: usize> {
-    /// The sides.
-    pub sides: [Side; 2],
-    /// A place that belongs to both.
-    pub place: [f64; D],
-}
-
-impl<const D: usize> Contact<D> {
-    /// What to do about it.
-    #[must_use]
-    pub fn remedy(&self) -> &'static str {
-        let [side, other] = self.sides;
-        if side == opposite(other) {
-            "sides are joined where they have the same control points in the same order and weights in the same ratios: \
-             copy those of one side to the other, or leave a gap"
-        } else {
-            "nothing would hold the two together: only opposite sides with the same control points are joined; draw the \
-             shape another way, or leave a gap"
-        }
-    }
-}
-
-impl<const D: usize> fmt::Display for Contact<D> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [side, other] = self.sides;
-        write!(f, "the sides `{side}` and `{other}` touch near {:.6?}", self.place)
-    }
+/// The longest way along a parameter, over its control points.
+fn length<const D: usize>(patch: &Spline<D>, parameter: usize) -> f64 {
+    let shape = patch.shape();
+    let stride: usize = shape[..parameter].iter().product();
+    let points = patch.control_points();
+    let starts = (0..points.len()).filter(|a| a / stride % shape[parameter] == 0);
+    let along = |start: usize| {
+        let line = (0..shape[parameter] - 1).map(|i| start + i * stride);
+        line.map(|a| distance(&points[a], &points[a + stride])).sum::<f64>()
+    };
+    starts.map(along).fold(0.0, f64::max)
 }
 
 fn sides_of(parameter: usize) -> [Side; 2] {
@@ -230,31 +197,6 @@ fn number(leaders: &mut [usize]) -> (Vec<usize>, Vec<usize>) {
     (nodes, first_of_node)
 }
 
-fn samples<const D: usize>(edge: &Spline<D>) -> Vec<[f64; D]> {
-    let [start, end] = edge.knots()[0].domain();
-    let at = |i: usize| i as f64 / (SAMPLES - 1) as f64;
-    (0..SAMPLES).map(|i| edge.point(&[((1.0 - at(i)) * start + at(i) * end).clamp(start, end)])).collect()
-}
-
-/// Boxes round the control points of each element of a curve.
-fn element_boxes<const D: usize>(curve: &Spline<D>) -> Vec<[[f64; D]; 2]> {
-    let of_element = |element: usize| {
-        let mut bounds = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
-        for a in curve.active_on(element) {
-            for (c, x) in curve.control_points()[a].iter().enumerate() {
-                bounds[0][c] = bounds[0][c].min(*x);
-                bounds[1][c] = bounds[1][c].max(*x);
-            }
-        }
-        bounds
-    };
-    (0..curve.element_count()).map(of_element).collect()
-}
-
-fn outside<const D: usize>(point: &[f64; D], [low, high]: &[[f64; D]; 2]) -> f64 {
-    (0..D).map(|c| (point[c] - point[c].clamp(low[c], high[c])).abs()).fold(0.0, f64::max)
-}
-
 fn size<const D: usize>(patch: &Spline<D>) -> f64 {
     let [low, high] = patch.bounding_box();
     distance(&low, &high)
@@ -284,7 +226,9 @@ mod tests {
             assert!(seams.is_loop(Side::TOP) && !seams.is_loop(Side::LEFT));
         }
         for sweep in [TAU * (1.0 - 1e-4), 3.0] {
-            assert!(Seams::find(&ring(sweep)).is_empty());
+            let seams = Seams::find(&ring(sweep));
+            assert!(seams.is_empty());
+            assert_eq!(narrow_gap(&ring(sweep), &seams).is_some(), sweep > 3.0, "{sweep}");
             assert_eq!(contact(&ring(sweep), &Seams::find(&ring(sweep))), None);
         }
     }
@@ -354,7 +298,36 @@ mod tests {
         let patch = build::rectangle([0.0; 2], [1.0, 0.01], [2, 2], [40, 1]).unwrap();
         let seams = Seams::find(&patch);
         assert!(seams.is_empty());
-        assert_eq!(contact(&patch, &seams), None);
+        assert_eq!((contact(&patch, &seams), narrow_gap(&patch, &seams)), (None, None));
+        let foil = build::rectangle([0.0; 2], [1.0, 1e-10], [2, 2], [4, 1]).unwrap();
+        let seams = Seams::find(&foil);
+        assert!(seams.is_empty());
+        assert_eq!((contact(&foil, &seams), narrow_gap(&foil, &seams)), (None, None));
+    }
+
+    #[test]
+    fn a_strip_that_crosses_itself_is_named() {
+        let strip = |points: &[[f64; 2]]| {
+            let (curve, _) = crate::fit::through(points, 3).unwrap();
+            build::strip(&curve, 0.1, build::Alignment::Middle, [2, 1], [20, 1]).unwrap()
+        };
+        let found = |patch: &Spline<2>| contact(patch, &Seams::find(patch));
+        let loops = [[1.0, 0.5], [0.5, 0.3], [0.0, 0.0], [-0.5, -0.4], [-1.0, 0.0], [-0.5, 0.4], [0.0, 0.0]];
+        let open = strip(&loops[..6]);
+        assert_eq!(found(&open), None);
+        let crossed = strip(&[&loops[..], &[[0.5, -0.3], [1.0, -0.5]]].concat());
+        let Some(Contact { crosses: true, place: [x, y], .. }) = found(&crossed) else {
+            panic!("no crossing")
+        };
+        assert!(x.hypot(y) < 0.2, "({x}, {y})");
+        // Windings that lie close to each other do not.
+        let angle = |i: i32| f64::from(i) * 0.5;
+        let spiral: Vec<[f64; 2]> = (0..60)
+            .map(|i| [(1.0 + 0.02 * angle(i)) * angle(i).cos(), (1.0 + 0.02 * angle(i)) * angle(i).sin()])
+            .collect();
+        let (curve, _) = crate::fit::through(&spiral, 3).unwrap();
+        let coil = build::strip(&curve, 0.12, build::Alignment::Middle, [2, 1], [60, 1]).unwrap();
+        assert_eq!(found(&coil), None);
     }
 
     #[test]

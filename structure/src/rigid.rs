@@ -9,7 +9,8 @@ mod equations;
 
 use std::fmt;
 
-use crate::error::shown;
+use partita_mesh::Place;
+
 use crate::space::Space;
 use bodies::Body;
 use equations::Equations;
@@ -48,7 +49,7 @@ impl fmt::Display for RigidMotion {
             Self::Translation([_, 0.0]) => f.write_str("move in x"),
             Self::Translation([0.0, _]) => f.write_str("move in y"),
             Self::Translation([x, y]) => write!(f, "move along ({x:.3}, {y:.3})"),
-            Self::Rotation(centre) => write!(f, "turn about {}", shown(centre)),
+            Self::Rotation(centre) => write!(f, "turn about {}", Place::from(*centre)),
         }
     }
 }
@@ -88,13 +89,22 @@ pub fn free_pieces(space: &Space<2>, held: &[bool]) -> Vec<FreePiece> {
             if !motions.is_empty() {
                 free.push((
                     body.first_cell,
-                    FreePiece { cells: body.cells, place: body.centre(space.points()), motions },
+                    FreePiece {
+                        cells: body.cells,
+                        place: snapped(body.centre(space.points()), body.size(space.points())),
+                        motions,
+                    },
                 ));
             }
         }
     }
     free.sort_by_key(|(first, _)| *first);
     free.into_iter().map(|(_, piece)| piece).collect()
+}
+
+/// A place without coordinates that are round-off.
+fn snapped(place: [f64; 2], size: f64) -> [f64; 2] {
+    place.map(|x| if x.abs() > ROUND_OFF * size { x } else { 0.0 })
 }
 
 /// Translations and a rotation that span `basis`: vectors `(t_x, t_y, omega size)` about the body's centre.
@@ -126,7 +136,7 @@ fn motions(body: &Body, points: &[[f64; 2]], basis: &[[f64; 3]]) -> Vec<RigidMot
         }
         // u(x) = t + omega e_z x (x - c) vanishes at the centre of rotation.
         let (centre, size) = (body.centre(points), body.size(points));
-        RigidMotion::Rotation([centre[0] - t[1] * size, centre[1] + t[0] * size])
+        RigidMotion::Rotation(snapped([centre[0] - t[1] * size, centre[1] + t[0] * size], size))
     });
     let positive = |[x, y]: [f64; 2]| if x < 0.0 || x == 0.0 && y < 0.0 { [-x, -y] } else { [x, y] };
     let translations =

@@ -10,15 +10,13 @@ pub(crate) const MOST_PIECES: usize = 3;
 pub(crate) const HOLD: &str = "name a part of its boundary in `clamped` or `held`; pieces of a mesh hold together where \
      they share nodes (`Coherence;` or `BooleanFragments` in the .geo file)";
 
-/// A piece, its size and its place.
-pub(crate) fn piece_of(piece: &FreePiece) -> String {
+/// What holds a piece or not: `nothing holds the piece of 3 elements at (1, 2) m`.
+pub(crate) fn in_words(piece: &FreePiece) -> String {
     let cells = if piece.cells == 1 { "1 element".to_owned() } else { format!("{} elements", piece.cells) };
-    format!("the piece of {cells} round {}", Place::from(piece.place))
-}
-
-/// What a piece can do: `is held nowhere: it can move in x, ...`.
-pub(crate) fn what_is_free(piece: &FreePiece) -> String {
+    let place = Place::from(piece.place);
+    if piece.is_loose() {
+        return format!("nothing holds the piece of {cells} at {place}");
+    }
     let motions: Vec<String> = piece.motions.iter().map(ToString::to_string).collect();
-    let held = if piece.is_loose() { "is held nowhere" } else { "is not held enough" };
-    format!("{held}: it can {}", motions.join(" and "))
+    format!("the supports let the piece of {cells} at {place} {}", motions.join(" and "))
 }

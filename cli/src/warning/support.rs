@@ -1,11 +1,12 @@
 //! Structures that can move as a whole, and structures that pull a wall's corner along.
 
 use partita_fluid::FluidSolver;
+use partita_iga::seam;
 use partita_mesh::Place;
 use partita_structure::{Space, StructureSolver, rigid};
 
 use super::{Found, Kind};
-use crate::scene::free::{HOLD, MOST_PIECES, piece_of, what_is_free};
+use crate::scene::free::{HOLD, MOST_PIECES, in_words};
 use crate::scene::schema::{Component, Condition, Fluid, Structure};
 
 /// Pieces that the supports leave free to move as rigid bodies.
@@ -21,9 +22,20 @@ pub(super) fn pieces(found: &mut Found<'_>, structure: &Structure, solver: &Stru
     for piece in free.iter().take(MOST_PIECES) {
         let more = free.len().saturating_sub(MOST_PIECES);
         let others = if more > 0 { format!(" (and {more} more pieces)") } else { String::new() };
-        let what = format!("{} of the structure {}{others}", piece_of(piece), what_is_free(piece));
+        let what = format!("{}{others}", in_words(piece));
         found.warn(Kind::FreeStructure, path, what, HOLD);
     }
+}
+
+/// A ring that was not quite closed.
+pub(super) fn gap(found: &mut Found<'_>, solver: &StructureSolver<2>) {
+    let Space::Patch(patch) = solver.space() else { return };
+    let Some((parameter, gap)) = seam::narrow_gap(patch.spline(), patch.seams()) else { return };
+    let [side, other] = if parameter == 0 { ["left", "right"] } else { ["bottom", "top"] };
+    let what =
+        format!("a gap of {gap:.1e} m keeps the sides `{side}` and `{other}` apart: they are not joined");
+    let remedy = "let them coincide for a closed shape, or widen the gap";
+    found.warn(Kind::OpenSeam, &["structure", "geometry"], what, remedy);
 }
 
 /// A node of the fluid on a fixed wall that the structure moves off that wall.

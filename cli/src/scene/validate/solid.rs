@@ -6,7 +6,7 @@ use partita_structure::{Patch, Space, rigid};
 use super::{Check, structure};
 use crate::build;
 use crate::scene::finding::Finding;
-use crate::scene::free::{HOLD, MOST_PIECES, piece_of, what_is_free};
+use crate::scene::free::{HOLD, MOST_PIECES, in_words};
 use crate::scene::schema::{Probe, Real, Scene, Structure, StructureTimeScheme};
 
 /// Sides that a seam joins are inside of the structure.
@@ -33,7 +33,7 @@ fn unheld(check: &mut Check<'_>, of_scene: &Structure, space: &Space<2>) {
     let Ok(held) = space.held_dofs(&clamped, &held) else { return };
     for piece in rigid::free_pieces(space, &held).iter().take(MOST_PIECES) {
         check.add(
-            Finding::new(format!("{} of a quasi-static structure {}", piece_of(piece), what_is_free(piece)))
+            Finding::new(format!("a quasi-static structure is not held: {}", in_words(piece)))
                 .mark_if(check.value(&["structure", "time_scheme"]), "no inertia holds it")
                 .mark_if(check.value(&["structure", "geometry"]), "of this")
                 .hint(HOLD),

@@ -135,14 +135,14 @@ fn unknown(wanted: &str, file: &FileName, groups: &[PhysicalGroup], known: &[Str
     };
     match groups.iter().find(|group| group.name == wanted) {
         Some(group) if group.dimension == 2 => {
-            Finding::new(format!("surface `{wanted}` of {file} has no cells")).hint(format!(
-                "it is only named: mesh it and save it with the others; {choice}"
-            ))
+            Finding::new(format!("surface `{wanted}` of {file} has no cells"))
+                .hint(format!("it is only named: mesh it and save it with the others; {choice}"))
         }
-        Some(group) => {
-            Finding::new(format!("`{wanted}` is a {} of {file}, not a surface", KINDS[group.dimension.min(3)]))
-                .hint(choice)
-        }
+        Some(group) => Finding::new(format!(
+            "`{wanted}` is a {} of {file}, not a surface",
+            KINDS[group.dimension.min(3)]
+        ))
+        .hint(choice),
         None => Finding::new(format!("{file} has no physical surface `{wanted}`")).hint(
             match nearest(wanted, known.iter().map(String::as_str)) {
                 Some(near) => format!("did you mean `{near}`?"),

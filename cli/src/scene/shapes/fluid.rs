@@ -6,9 +6,9 @@ use partita_mesh::Mesh;
 use partita_mesh::generate::{self, Diagonal};
 use partita_mesh::refine;
 
-use super::{FLUID_FILE, Shapes};
 use super::content::{self, Content};
 use super::read::{self, Input};
+use super::{FLUID_FILE, Shapes};
 use crate::scene::finding::Finding;
 use crate::scene::schema::{Circle, Count, Diagonals, FluidMesh, GmshMesh, Positive, Real, RectangleMesh};
 use crate::scene::validate::Check;
@@ -25,7 +25,9 @@ pub(super) fn mesh(
 ) -> Option<Mesh<2>> {
     let (made, place) = match mesh {
         FluidMesh::Rectangle(mesh) => (rectangle(mesh), &["fluid", "mesh", "rectangle"][..]),
-        FluidMesh::Gmsh(mesh) => (from_file(mesh, folder, shapes, check), &["fluid", "mesh", "gmsh", "file"][..]),
+        FluidMesh::Gmsh(mesh) => {
+            (from_file(mesh, folder, shapes, check), &["fluid", "mesh", "gmsh", "file"][..])
+        }
     };
     made.map_err(|finding| check.add(finding.mark_unless(check.value(place), "this mesh"))).ok()
 }

@@ -5,8 +5,8 @@ use partita_mesh::{Mesh, Place};
 
 use super::{Check, fluid as conditions, groups};
 use crate::scene::finding::Finding;
-use crate::scene::shapes::Content;
 use crate::scene::schema::{Fluid, FluidMesh, Line, Probe, Real, Scene};
+use crate::scene::shapes::Content;
 
 /// The fluid's mesh against what the scene says about it.
 pub(super) fn check(

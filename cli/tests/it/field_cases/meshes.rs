@@ -35,7 +35,15 @@ fn files_of_other_tools_and_versions_are_read_as_gmshs_own() {
     let case = Case::new("versions");
     let page = |stem: &str| sound(&case, &format!("{stem}.toml"), &[]).replace(stem, "mesh");
     let plain = page("version_2p200000");
-    says(&plain, &["2 triangles", "south     1 edges  no_slip", "east      1 edges  do_nothing", "surfaces (and their elements): water (2)"]);
+    says(
+        &plain,
+        &[
+            "2 triangles",
+            "south     1 edges  no_slip",
+            "east      1 edges  do_nothing",
+            "surfaces (and their elements): water (2)",
+        ],
+    );
     for stem in ["comments_first", "bom", "huge_tag22"] {
         assert_eq!(page(stem), plain, "{stem}");
     }
@@ -49,7 +57,10 @@ fn files_of_other_tools_and_versions_are_read_as_gmshs_own() {
 fn names_without_a_dimension_are_told_as_that_and_the_hint_works() {
     let case = Case::new("versions");
     let message = refused(&case, "v20_hint.toml", &[]);
-    says(&message, &["v20_hint.msh, line 6 in $PhysicalNames", "`south` has no dimension", "`1 1 \"south\"`"]);
+    says(
+        &message,
+        &["v20_hint.msh, line 6 in $PhysicalNames", "`south` has no dimension", "`1 1 \"south\"`"],
+    );
     case.replace("v20_hint.msh", "-1 1 \"south\"", "1 1 \"south\"");
     case.replace("v20_hint.msh", "-1 3 \"north\"", "1 3 \"north\"");
     // gmsh has lost the two other names.
@@ -61,8 +72,10 @@ fn names_without_a_dimension_are_told_as_that_and_the_hint_works() {
 #[test]
 fn text_of_other_encodings_is_named_as_that() {
     let case = Case::new("versions");
-    let utf_16: Vec<u8> =
-        format!("\u{feff}{}", case.text("version_2p200000.msh")).encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let utf_16: Vec<u8> = format!("\u{feff}{}", case.text("version_2p200000.msh"))
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes)
+        .collect();
     std::fs::write(case.path("version_2p200000.msh"), utf_16).expect("the file is written");
     says(&refused(&case, "version_2p200000.toml", &[]), &["UTF-16", "UTF-8"]);
     // A mark before the scene itself is no matter.

@@ -35,8 +35,32 @@ impl Random {
 
 /// What a value may become. Counts are tiny or absurd: one that is merely large would be honest work.
 const STRANGE: [&str; 26] = [
-    "0", "1", "2", "3", "-1", "-0.0", "0.5", "1e-300", "5e-324", "1e308", "-1e308", "1e999", "nan", "NaN", "inf", "-inf",
-    "99999999999", "18446744073709551616", "9223372036854775807", "-2147483648", "\"\"", "\"x\"", "[]", "true", "\u{0}", "ü",
+    "0",
+    "1",
+    "2",
+    "3",
+    "-1",
+    "-0.0",
+    "0.5",
+    "1e-300",
+    "5e-324",
+    "1e308",
+    "-1e308",
+    "1e999",
+    "nan",
+    "NaN",
+    "inf",
+    "-inf",
+    "99999999999",
+    "18446744073709551616",
+    "9223372036854775807",
+    "-2147483648",
+    "\"\"",
+    "\"x\"",
+    "[]",
+    "true",
+    "\u{0}",
+    "ü",
 ];
 
 /// Damages text: one word, two words, one line, two lines, the end, or a byte.
@@ -66,7 +90,12 @@ fn damage_text(text: &str, random: &mut Random) -> String {
                 return text.to_owned();
             }
             let (one, two) = (&text[first.clone()], &text[second.clone()]);
-            format!("{}{two}{}{one}{}", &text[..first.start], &text[first.end..second.start], &text[second.end..])
+            format!(
+                "{}{two}{}{one}{}",
+                &text[..first.start],
+                &text[first.end..second.start],
+                &text[second.end..]
+            )
         }
         5 => {
             let word = words[random.below(words.len())].clone();
@@ -104,7 +133,9 @@ fn damage_bytes(bytes: &[u8], random: &mut Random) -> Vec<u8> {
     match random.below(6) {
         0 => bytes.truncate(at),
         1 => drop(bytes.remove(at)),
-        2 => put(&mut bytes, &random.of(&[f64::NAN, f64::INFINITY, 1e308, -1e308, 5e-324, 0.0]).to_le_bytes()),
+        2 => {
+            put(&mut bytes, &random.of(&[f64::NAN, f64::INFINITY, 1e308, -1e308, 5e-324, 0.0]).to_le_bytes())
+        }
         3 => put(&mut bytes, &random.of(&[u64::MAX, 0, 1, 1 << 40, u64::MAX / 8]).to_le_bytes()),
         4 => put(&mut bytes, &random.of(&[i32::MIN, i32::MAX, -1, 0, 1, 2, 3]).to_le_bytes()),
         _ => {
@@ -146,7 +177,9 @@ impl Tally {
             self.all += 1;
             match catch_unwind(AssertUnwindSafe(|| answer(&case.path(scene), &case.path("out")))) {
                 Ok(sound) => self.sound += usize::from(sound),
-                Err(_) => self.panics.push(format!("{file}, round {round}:\n{}", String::from_utf8_lossy(&mutant))),
+                Err(_) => {
+                    self.panics.push(format!("{file}, round {round}:\n{}", String::from_utf8_lossy(&mutant)))
+                }
             }
         }
         fs::write(case.path(file), whole).expect("the file is written");
@@ -258,7 +291,12 @@ fn no_damage_to_splines_meshes_and_scenes_makes_a_panic() {
     }
     tally.damage(&case, "fluid.toml", "fluid.toml", 40);
     write(&case, "solid.toml", SOLID);
-    for stem in ["plate-quadrilaterals-4.1-ascii", "plate-quadrilaterals-8-2.2-ascii", "plate-quadrilaterals-9-4.1-binary", "plate-second-order-4.1-binary"] {
+    for stem in [
+        "plate-quadrilaterals-4.1-ascii",
+        "plate-quadrilaterals-8-2.2-ascii",
+        "plate-quadrilaterals-9-4.1-binary",
+        "plate-second-order-4.1-binary",
+    ] {
         write(&case, "mesh.msh", fixture(stem));
         tally.damage(&case, "solid.toml", "mesh.msh", 20);
     }

@@ -40,14 +40,15 @@ fn a_mesh_of_both_orientations_is_refused_with_a_place_and_a_remedy_for_the_file
 /// Places of the nodes of a cell on the grid of half cells, counter-clockwise in gmsh's order.
 const TRIANGLES: [[[usize; 2]; 6]; 2] =
     [[[0, 0], [2, 0], [2, 2], [1, 0], [2, 1], [1, 1]], [[0, 0], [2, 2], [0, 2], [1, 1], [1, 2], [0, 1]]];
-const SQUARE: [[usize; 2]; 9] =
-    [[0, 0], [2, 0], [2, 2], [0, 2], [1, 0], [2, 1], [1, 2], [0, 1], [1, 1]];
+const SQUARE: [[usize; 2]; 9] = [[0, 0], [2, 0], [2, 2], [0, 2], [1, 0], [2, 1], [1, 2], [0, 1], [1, 1]];
 
 /// A bar of `CELLS` squares in a row, held at its left end, as a file of gmsh: elements of a type, `nodes` each.
 fn bar(code: usize, nodes: usize, clockwise: bool) -> String {
     const CELLS: usize = 4;
     let at = |[i, j]: [usize; 2]| 1 + i + j * (2 * CELLS + 1);
-    let mut text = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"root\"\n2 2 \"bar\"\n$EndPhysicalNames\n$Nodes\n");
+    let mut text = String::from(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"root\"\n2 2 \"bar\"\n$EndPhysicalNames\n$Nodes\n",
+    );
     writeln!(text, "{}", 3 * (2 * CELLS + 1)).expect("strings grow");
     for (i, j) in (0..3).flat_map(|j| (0..=2 * CELLS).map(move |i| (i, j))) {
         writeln!(text, "{} {} {} 0", at([i, j]), i as f64 * 0.25, j as f64 * 0.1).expect("strings grow");
@@ -57,8 +58,11 @@ fn bar(code: usize, nodes: usize, clockwise: bool) -> String {
         _ => vec![&SQUARE[..nodes]],
     };
     let (line, between) = if matches!(nodes, 3 | 4) { (1, "") } else { (8, " 10") };
-    writeln!(text, "$EndNodes\n$Elements\n{}\n1 {line} 2 1 1 1 19{between}", 1 + cells.len() * CELLS).expect("strings grow");
-    for (number, (column, cell)) in (0..CELLS).flat_map(|column| cells.iter().map(move |cell| (column, cell))).enumerate() {
+    writeln!(text, "$EndNodes\n$Elements\n{}\n1 {line} 2 1 1 1 19{between}", 1 + cells.len() * CELLS)
+        .expect("strings grow");
+    for (number, (column, cell)) in
+        (0..CELLS).flat_map(|column| cells.iter().map(move |cell| (column, cell))).enumerate()
+    {
         write!(text, "{} {code} 2 2 1", number + 2).expect("strings grow");
         for &[i, j] in *cell {
             // Across the diagonal the square is itself, and its cells run clockwise.

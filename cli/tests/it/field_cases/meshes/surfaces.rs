@@ -23,7 +23,10 @@ fn a_file_with_several_surfaces_needs_a_choice() {
         says(&message, &[&surfaces, "`surfaces = \"fluid\"`", "[fluid.mesh.gmsh]"]);
     }
     let message = refused(&case, "both.toml", &["--set", "structure.geometry.gmsh={ file = \"flap.msh\" }"]);
-    says(&message, &["flap.msh has 2 physical surfaces: `water`, `flap`", "the structure", "[structure.geometry.gmsh]"]);
+    says(
+        &message,
+        &["flap.msh has 2 physical surfaces: `water`, `flap`", "the structure", "[structure.geometry.gmsh]"],
+    );
 }
 
 #[test]
@@ -45,11 +48,14 @@ fn a_chosen_surface_is_bounded_by_the_curves_that_touch_it() {
     );
     assert_eq!(page, sound(&case, "chosen.toml", &with(&fluid("[\"fluid\"]"))), "a list of one is that one");
     // A condition on a curve of the other part.
-    says(&refused(&case, "two_domains_iface.toml", &with(&overrides)), &[
-        "the curve `north` does not touch the chosen surfaces",
-        "the curve `west` does not touch the chosen surfaces",
-        "boundary group `fsi` has no condition",
-    ]);
+    says(
+        &refused(&case, "two_domains_iface.toml", &with(&overrides)),
+        &[
+            "the curve `north` does not touch the chosen surfaces",
+            "the curve `west` does not touch the chosen surfaces",
+            "boundary group `fsi` has no condition",
+        ],
+    );
     // Both surfaces together: the curve between them is no boundary, and no condition can stand there.
     let both = fluid("[\"fluid\", \"solid\"]");
     let page = sound(&case, "two_domains_iface.toml", &with(&both));
@@ -81,7 +87,13 @@ fn cells_outside_of_the_surfaces_are_not_taken_in_silence() {
     let case = Case::new("two_domains");
     case.replace("two_domains.msh", "6 2 2 9 1 1 3 4", "6 2 2 0 1 1 3 4");
     let message = refused(&case, "two_domains.toml", &[]);
-    says(&message, &["1 cells of two_domains.msh belong to no physical surface, the others to `fluid`", "surfaces = \"fluid\""]);
+    says(
+        &message,
+        &[
+            "1 cells of two_domains.msh belong to no physical surface, the others to `fluid`",
+            "surfaces = \"fluid\"",
+        ],
+    );
     // Without any surface the whole file is the mesh, as ever, and there is nothing to choose.
     case.replace("two_domains.msh", "5 2 2 8 1 1 2 3", "5 2 2 0 1 1 2 3");
     case.replace("two_domains.msh", "$PhysicalNames\n6", "$PhysicalNames\n4");
@@ -120,7 +132,10 @@ fn fluid_and_structure_of_one_file_run_coupled() {
     let bent = case.last_probe("out", "tip_displacement_x");
     assert!((1e-5..0.1).contains(&bent), "the flow bends the flap by {bent} m");
     // The copies that the run keeps are the whole file, with the choice beside it.
-    assert_eq!(fs::read(case.path("out/input/fluid.msh")).expect("a copy"), fs::read(case.path("flap.msh")).expect("the mesh"));
+    assert_eq!(
+        fs::read(case.path("out/input/fluid.msh")).expect("a copy"),
+        fs::read(case.path("flap.msh")).expect("the mesh")
+    );
     let again = case.partita(&["check", "out/scene.toml"]);
     assert_eq!(again.code, 0, "{}", again.stderr);
 }

@@ -16,3 +16,4 @@ pub mod scene;
 pub mod session;
 pub mod stability;
 pub mod study;
+pub mod warning;

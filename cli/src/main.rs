@@ -12,9 +12,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Parser;
 use partita::output::{Clock, Ending, Summary};
 use partita::session::{Options, RunError, Session};
+use partita::warning::{self, Warning};
 use partita::{build, check, output, plan, scene, stability, study};
 
-use args::{Arguments, Check, Command, Manner, Plan, Resume, Run, Stability, Study};
+use args::{Arguments, Check, Command, Manner, Plan, Resume, Run, SceneArguments, Stability, Study};
 use failure::Failure;
 
 /// Set when the user asks to stop; the run ends after its step.
@@ -39,19 +40,75 @@ fn main() -> ExitCode {
 fn run(arguments: &Run, clock: Clock) -> Result<ExitCode, Failure> {
     let resolved = scene::load(&arguments.scene.path, &arguments.scene.overrides)?;
     let dir = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(&resolved.name));
+    let options = options(&arguments.manner);
+    let built = build::run_on(&resolved, options.threads())?;
+    let warnings = warning::of(&resolved, &built);
+    // What is denied is shown even to those who asked for quiet.
+    if !arguments.manner.quiet || arguments.deny_warnings {
+        warn(&warnings);
+    }
+    deny(&warnings, arguments.deny_warnings)?;
     if arguments.force {
-        build::run(&resolved)?;
         output::remove_run(&dir)?;
     }
-    let session = Session::start(&resolved, &dir, options(&arguments.manner), clock)
+    let session = Session::start_with(built, &resolved, &dir, options, clock)
         .map_err(Failure::before_the_first_step)?;
     finish(session, &dir, &arguments.manner)
 }
 
 fn check(arguments: &Check) -> Result<ExitCode, Failure> {
-    let resolved = scene::load(&arguments.scene.path, &arguments.scene.overrides)?;
-    print(&check::describe(&resolved)?)?;
-    Ok(ExitCode::SUCCESS)
+    let outcome = look_at(&arguments.scene);
+    if arguments.json {
+        return check_in_json(outcome, arguments.deny_warnings);
+    }
+    let Checked { description, warnings } = outcome?;
+    warn(&warnings);
+    let denied = deny(&warnings, arguments.deny_warnings);
+    if denied.is_ok() {
+        print(&description)?;
+    }
+    denied.map(|()| ExitCode::SUCCESS)
+}
+
+/// A scene that was built, in words.
+struct Checked {
+    description: String,
+    warnings: Vec<Warning>,
+}
+
+fn look_at(scene: &SceneArguments) -> Result<Checked, Failure> {
+    let resolved = scene::load(&scene.path, &scene.overrides)?;
+    let run = build::run(&resolved)?;
+    Ok(Checked { description: check::describe(&resolved, &run), warnings: warning::of(&resolved, &run) })
+}
+
+/// The same as one object; its exit code is that of the words.
+fn check_in_json(outcome: Result<Checked, Failure>, deny: bool) -> Result<ExitCode, Failure> {
+    let (object, code) = match outcome {
+        Ok(Checked { description, warnings }) => {
+            let denied = deny && warning::open(&warnings).next().is_some();
+            let object = serde_json::json!({ "sound": true, "description": description, "warnings": warnings, "errors": [] });
+            (object, if denied { ExitCode::from(failure::WRONG_INPUT) } else { ExitCode::SUCCESS })
+        }
+        Err(failure) => {
+            let errors = failure.problems();
+            (serde_json::json!({ "sound": false, "warnings": [], "errors": errors }), failure.code())
+        }
+    };
+    print(&(serde_json::to_string_pretty(&object).expect("strings and lists") + "\n"))?;
+    Ok(code)
+}
+
+/// Prints the warnings that the scene does not accept, one line each, on stderr.
+fn warn(warnings: &[Warning]) {
+    for warning in warning::open(warnings) {
+        eprintln!("{warning}");
+    }
+}
+
+fn deny(warnings: &[Warning], denied: bool) -> Result<(), Failure> {
+    let count = warning::open(warnings).count();
+    if denied && count > 0 { Err(Failure::denied(count)) } else { Ok(()) }
 }
 
 fn plan(arguments: &Plan) -> Result<ExitCode, Failure> {

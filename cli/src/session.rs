@@ -19,7 +19,7 @@ use crate::output::{Clock, Ending, OutputError, RunWriter, Spent, Summary};
 use crate::probe::Probes;
 use crate::progress::Progress;
 use crate::scene::Resolved;
-use crate::scene::schema::{Count, Output, Scene};
+use crate::scene::schema::{Count, Output, Scene, Warnings};
 
 /// How a run is to be carried out; nothing here changes its numbers.
 #[derive(Debug, Clone, Copy, Default)]
@@ -35,7 +35,9 @@ pub struct Options<'a> {
 }
 
 impl Options<'_> {
-    fn threads(&self) -> usize {
+    /// The number of threads, at least one.
+    #[must_use]
+    pub fn threads(&self) -> usize {
         self.threads.map_or(1, NonZeroUsize::get)
     }
 }
@@ -113,7 +115,20 @@ impl<'a> Session<'a> {
         options: Options<'a>,
         clock: Clock,
     ) -> Result<Self, RunError> {
-        let run = build::run_on(resolved, options.threads())?;
+        Self::start_with(build::run_on(resolved, options.threads())?, resolved, dir, options, clock)
+    }
+
+    /// The same with the run that was built from the scene.
+    ///
+    /// # Errors
+    /// When the folder cannot be written, or its disk has less space than the run will fill.
+    pub fn start_with(
+        run: Run,
+        resolved: &'a Resolved,
+        dir: &Path,
+        options: Options<'a>,
+        clock: Clock,
+    ) -> Result<Self, RunError> {
         let scene = &resolved.scene;
         let probes = Probes::new(&scene.output.probes, &run);
         let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
@@ -349,6 +364,7 @@ fn decisive(resolved: &Resolved) -> String {
     let mut resolved = resolved.clone();
     resolved.scene.time.steps = Count::literal(1);
     resolved.scene.output = Output::default();
+    resolved.scene.warnings = Warnings::default();
     let inputs = resolved.shapes.inputs.iter();
     let sums =
         inputs.map(|input| format!("# {} has checksum {:08x}\n", input.name, crc32fast::hash(&input.bytes)));

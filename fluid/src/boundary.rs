@@ -52,7 +52,7 @@ impl<const D: usize> Boundaries<D> {
         model: &FluidModel<D>,
         settings: &FluidSettings,
     ) -> Result<Self, FluidError> {
-        let owners = owners(mesh, model);
+        let owners = holding_conditions(mesh, model);
         let mut boundaries = Self {
             prescribed: vec![false; mesh.points().len() * (D + 1)],
             interface: Vec::new(),
@@ -179,12 +179,14 @@ pub(crate) fn evaluate<const D: usize>(
     }
 }
 
-/// For each node the condition that holds it: of the highest rank, among equals the first listed.
-fn owners<const D: usize>(mesh: &Mesh<D>, model: &FluidModel<D>) -> Vec<Option<usize>> {
+/// For each node the condition that holds it, by its place in the model's list: of the highest rank (see
+/// [`FluidModel::boundary`]), among equals the first listed. Groups that the mesh does not have are passed over.
+#[must_use]
+pub fn holding_conditions<const D: usize>(mesh: &Mesh<D>, model: &FluidModel<D>) -> Vec<Option<usize>> {
     let mut owners: Vec<Option<usize>> = vec![None; mesh.points().len()];
     let rank = |index: usize| model.boundary[index].1.rank();
     for (index, (group, _)) in model.boundary.iter().enumerate() {
-        for node in mesh.group_nodes(group).expect("a checked group") {
+        for node in mesh.group_nodes(group).unwrap_or_default() {
             if owners[node].is_none_or(|owner| rank(index) > rank(owner)) {
                 owners[node] = Some(index);
             }

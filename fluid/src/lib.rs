@@ -21,6 +21,7 @@
 //! Prescribed dofs are eliminated; the residual is kept on all dofs, so that its prescribed rows are the
 //! forces that hold the values.
 
+mod added_mass;
 mod assembly;
 mod boundary;
 mod error;
@@ -38,6 +39,7 @@ mod step;
 mod trial;
 mod worst;
 
+pub use boundary::holding_conditions;
 pub use error::FluidError;
 pub use model::{BodyForce, BoundaryCondition, FluidModel, InitialState, VectorField};
 pub use settings::{FluidSettings, PressurePin, Tangent, TimeScheme};

@@ -6,8 +6,11 @@
 mod diagnose;
 mod document;
 mod finding;
+pub(crate) mod formulas;
 mod overrides;
+mod places;
 pub mod reference;
+mod repair;
 mod resolve;
 pub mod schema;
 mod shapes;
@@ -16,6 +19,7 @@ mod validate;
 mod write;
 
 pub use diagnose::{Problem, SceneError};
+pub use places::Places;
 pub use resolve::{Resolved, SCENE_FILE, load, parse, read_in};
 pub use shapes::Shapes;
 pub(crate) use shapes::{INPUT_FILES, INPUT_FOLDER, Input};

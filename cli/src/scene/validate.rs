@@ -2,6 +2,7 @@
 
 mod fields;
 mod fluid;
+mod formulas;
 mod groups;
 mod interface;
 mod mesh;
@@ -14,15 +15,33 @@ use super::document::Document;
 use super::finding::Finding;
 use super::schema::Scene;
 use super::shapes::Shapes;
+use crate::nearest::nearest;
+use crate::warning::Kind;
 
 /// What does not fit, as far as the text of the scene shows it.
 pub(super) fn validate(check: &mut Check<'_>, scene: &Scene) {
     fields::check(check, scene);
+    warnings(check, scene);
     if let Some(fluid) = &scene.fluid {
         fluid::check(check, scene, fluid);
     }
     if let Some(structure) = &scene.structure {
         structure::check(check, structure, scene.fluid.is_some());
+    }
+}
+
+/// Warnings are accepted by their names.
+fn warnings(check: &mut Check<'_>, scene: &Scene) {
+    let names = || Kind::ALL.into_iter().map(Kind::name);
+    for name in scene.warnings.accept.keys().filter(|name| Kind::from_name(name).is_none()) {
+        check.add(
+            Finding::new(format!("there is no warning `{name}`"))
+                .mark_if(check.key(&["warnings", "accept", name]), "unknown warning")
+                .hint(match nearest(name, names()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("warnings: {}", names().collect::<Vec<_>>().join(", ")),
+                }),
+        );
     }
 }
 
@@ -35,6 +54,9 @@ pub(super) fn validate_shapes(check: &mut Check<'_>, scene: &Scene, shapes: &Sha
         solid::check(check, scene, structure, space);
     }
     interface::check(check, scene, shapes);
+    if check.is_sound() {
+        formulas::check(check, scene, shapes);
+    }
 }
 
 /// The findings so far, and the places they can point at.
@@ -55,6 +77,11 @@ impl<'a> Check<'a> {
         }
         self.findings.sort_by_key(|finding| finding.marks.first().map(|(place, _)| place.start));
         Err(self.findings)
+    }
+
+    /// Whether nothing was found so far.
+    fn is_sound(&self) -> bool {
+        self.findings.is_empty()
     }
 
     pub(super) fn add(&mut self, finding: Finding) {

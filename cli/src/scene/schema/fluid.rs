@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use partita_fluid::stabilization::INVERSE_CONSTANT;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -69,7 +70,7 @@ const fn on() -> bool {
 }
 
 fn inverse_constant() -> Positive {
-    Positive::new(36.0).expect("36 is positive")
+    Positive::new(INVERSE_CONSTANT).expect("it is positive")
 }
 
 fn grad_div() -> NonNegative {

@@ -23,6 +23,7 @@
 
 mod added_mass;
 mod assembly;
+mod balance;
 mod boundary;
 mod error;
 mod force;

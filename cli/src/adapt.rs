@@ -4,6 +4,7 @@
 //! composes one call from the primitives of [`Field`] and the one Newton loop, and measures what the call changed and
 //! what it cost. It holds no numerics of its own.
 
+mod backflow;
 mod field;
 mod slot;
 mod solvers;
@@ -19,7 +20,7 @@ use partita_numerics::norms::{norm2, relative, relative_change};
 use partita_numerics::phases::PhaseSeconds;
 use serde::{Deserialize, Serialize};
 
-pub use field::Field;
+pub use field::{Field, Suspect};
 pub use slot::{Misfit, Slot, SlotState};
 
 /// A field as a participant of the coupling.
@@ -114,7 +115,7 @@ where
     }
 
     fn begin_step(&mut self, step: &Step) -> Result<(), ParticipantError> {
-        self.field.begin_step(step.time, step.dt).map_err(|error| field_error::<F>(&error))?;
+        self.field.begin_step(step.time, step.dt).map_err(|error| field_error(&self.field, &error))?;
         self.entry.copy_from_slice(self.field.values());
         Ok(())
     }
@@ -128,7 +129,7 @@ where
         let before = self.field.phases();
         // Without data the step is as `begin_step` left it.
         if !self.input.is_empty() {
-            self.field.impose(input).map_err(|error| field_error::<F>(&error))?;
+            self.field.impose(input).map_err(|error| field_error(&self.field, &error))?;
         }
         let (limit, settles) = loop_limit(limit);
         let settings = *self.field.newton();
@@ -142,7 +143,7 @@ where
         })
         .map_err(|failure| newton_error(&self.field, &failure))?;
         if report.converged {
-            self.field.verify().map_err(|error| field_error::<F>(&error))?;
+            self.field.verify().map_err(|error| field_error(&self.field, &error))?;
         }
         if !self.output.is_empty() {
             self.field.output(output);
@@ -181,6 +182,9 @@ fn loop_limit(limit: NewtonLimit) -> (Limit, Option<f64>) {
     }
 }
 
+/// A residual above this part of the largest term of its equations is a load that nothing balances.
+const BALANCED: f64 = 1e-3;
+
 fn effort(report: &Report, bound: Bound, changes: Vec<Change>, phases: PhaseSeconds) -> Effort {
     let measured = |norm: &ResidualNorm| match bound {
         Bound::Relative(_) => norm.relative,
@@ -193,8 +197,10 @@ fn effort(report: &Report, bound: Bound, changes: Vec<Change>, phases: PhaseSeco
         solves: report.solves,
         entry_residual: measured(&report.entry),
         residual: measured(&report.exit),
-        entry_converged: bound.met(&report.entry),
+        entry_converged: report.entry_converged,
         converged: report.converged,
+        at_round_off: report.at_round_off,
+        idle_under_load: report.iterations == 0 && !report.at_round_off && report.entry.relative > BALANCED,
         changes,
         time: PhaseTimes {
             assembly: phases.assembly,
@@ -207,11 +213,11 @@ fn effort(report: &Report, bound: Bound, changes: Vec<Change>, phases: PhaseSeco
 }
 
 /// The field's error in its own words.
-fn field_error<F: Field>(error: &F::Error) -> ParticipantError
+fn field_error<F: Field>(field: &F, error: &F::Error) -> ParticipantError
 where
     F::Error: Error,
 {
-    split_hint(F::NAME, &error.to_string())
+    with_suspect(split_hint(F::NAME, &error.to_string()), field.suspect())
 }
 
 /// A failed Newton loop: where the field itself failed inside, its words follow; otherwise the place of the largest
@@ -222,7 +228,7 @@ where
 {
     let mut error = match failure {
         Failure::Problem { iteration, source } => {
-            let mut error = field_error::<F>(source);
+            let mut error = field_error(field, source);
             error.message = format!("Newton iteration {iteration}: {}", error.message);
             return error;
         }
@@ -230,6 +236,35 @@ where
     };
     if let Some(worst) = field.worst_equation() {
         error.message = format!("{}; it is largest for {worst}", error.message);
+    }
+    if let Some(hint) = key_of(F::NAME, failure) {
+        error.hint = Some(hint);
+    }
+    with_suspect(error, field.suspect())
+}
+
+/// The advice of a failed loop with the keys of the scene, where there are some to turn.
+fn key_of<E>(field: &str, failure: &Failure<E>) -> Option<String> {
+    match failure {
+        Failure::TooManyIterations { .. } => Some(format!(
+            "a residual that still falls needs a larger `{field}.newton.max_iterations`, one that does not a smaller time step"
+        )),
+        Failure::Stagnated { .. } => Some(format!(
+            "look for a nearly singular state (buckling, a piece that is hardly held); where such a residual is good enough, \
+             raise `{field}.newton.tolerance`"
+        )),
+        Failure::Problem { .. } | Failure::NotFinite { .. } | Failure::Diverged { .. } => None,
+    }
+}
+
+/// Names a known cause of failures beside the advice of the error itself.
+fn with_suspect(mut error: ParticipantError, suspect: Option<Suspect>) -> ParticipantError {
+    if let Some(Suspect { advice, comes_first }) = suspect {
+        error.hint = Some(match error.hint {
+            None => advice,
+            Some(hint) if comes_first => format!("{advice}; otherwise {hint}"),
+            Some(hint) => format!("{hint}; {advice}"),
+        });
     }
     error
 }

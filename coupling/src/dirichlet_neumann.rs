@@ -14,7 +14,7 @@
 use std::time::Instant;
 
 use crate::divergence;
-use crate::error::{ParticipantError, StepFailure};
+use crate::error::{IdleField, ParticipantError, StepFailure};
 use crate::march::{AtLimit, Choices};
 use crate::observe::Observer;
 use crate::participant::Participant;
@@ -193,6 +193,25 @@ fn check_finite(values: &[f64], origin: &str, blocks: &[Block]) -> Result<(), St
     }
 }
 
+/// Coupling iterations at the end of a step in which a field must have moved, unless none of them needs it to.
+const LATELY: usize = 5;
+
+/// Fields that have not moved lately, where the interface has. (Where it has not, there is nothing to answer.)
+fn idle_fields(history: &StepHistory) -> Vec<IdleField> {
+    let done = history.iterations.len();
+    let moves = |iteration: &IterationRecord| iteration.residual > 0.0;
+    if done < LATELY || !history.iterations[done - LATELY..].iter().all(moves) {
+        return Vec::new();
+    }
+    let idle = |index: usize| {
+        let moved = history.iterations.iter().rposition(|iteration| iteration.fields[index].newton > 0);
+        let moved_last = moved.map_or(0, |position| position + 1);
+        let name = history.iterations[0].fields[index].name.clone();
+        (done - moved_last >= LATELY).then_some(IdleField { name, moved_last })
+    };
+    [0, 1].into_iter().filter_map(idle).collect()
+}
+
 fn too_many_iterations(history: &StepHistory) -> StepFailure {
     let last = history.last().expect("the iteration bound is at least one");
     let open: Vec<&str> =
@@ -208,5 +227,6 @@ fn too_many_iterations(history: &StepHistory) -> StepFailure {
             format!("above the own residual bound: {}", open.join(", "))
         },
         stands_since: divergence::stands_since(history),
+        idle: idle_fields(history),
     }
 }

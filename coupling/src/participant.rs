@@ -131,10 +131,15 @@ pub struct Effort {
     pub entry_residual: f64,
     /// Residual at the last iterate, measured like `entry_residual`.
     pub residual: f64,
-    /// Whether `entry_residual` met the field's bound.
+    /// Whether `entry_residual` met the field's bound, or was round-off.
     pub entry_converged: bool,
     /// Whether the field is below its own bound, as the field judges it.
     pub converged: bool,
+    /// Whether it is so only because its residual is round-off: above the bound, but as small as the arithmetic can make it.
+    pub at_round_off: bool,
+    /// Whether no iteration was made although a good part of the load, more than round-off or a tight bound explains, was
+    /// not balanced.
+    pub idle_under_load: bool,
     /// Relative change of every part of the solution.
     pub changes: Vec<Change>,
     /// Where the time went.

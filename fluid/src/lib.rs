@@ -22,6 +22,7 @@
 //! forces that hold the values.
 
 mod assembly;
+mod backflow;
 mod boundary;
 mod error;
 mod force;
@@ -30,6 +31,7 @@ pub mod kernel;
 pub mod model;
 mod probe;
 mod residual;
+mod round_off;
 pub mod settings;
 mod solver;
 pub mod stabilization;
@@ -38,6 +40,7 @@ mod step;
 mod trial;
 mod worst;
 
+pub use backflow::{Backflow, Outlet};
 pub use error::FluidError;
 pub use model::{BodyForce, BoundaryCondition, FluidModel, InitialState, VectorField};
 pub use settings::{FluidSettings, PressurePin, Tangent, TimeScheme};

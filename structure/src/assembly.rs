@@ -1,5 +1,7 @@
 //! From elements to global forces and the tangent.
 
+mod round_off;
+
 use partita_numerics::scatter::add_vector;
 use partita_numerics::{Connectivity, DofMap, Pattern, Scatter};
 
@@ -42,6 +44,8 @@ pub(crate) struct Local<const D: usize> {
     force: Vec<[f64; D]>,
     matrix: Vec<f64>,
     blocks: Blocks<D>,
+    /// Sizes of forces, a node.
+    sizes: Vec<f64>,
 }
 
 /// Everything about assembly that does not change during a run.
@@ -107,7 +111,7 @@ impl<const D: usize> Assembly<D> {
     /// The same with damping.
     pub(crate) fn with_damping(mut self, rayleigh: Rayleigh) -> Self {
         let linearized = self.material.linearized();
-        let mut matrix = self.matrix(|e, Local { field, force, matrix, blocks }| {
+        let mut matrix = self.matrix(|e, Local { field, force, matrix, blocks, .. }| {
             let element = self.elements.element(e);
             field.fill([0.0; D]);
             let factor = rayleigh.stiffness;
@@ -149,6 +153,7 @@ impl<const D: usize> Assembly<D> {
             force: vec![[0.0; D]; nodes],
             matrix: vec![0.0; (nodes * D).pow(2)],
             blocks: Blocks::new(nodes),
+            sizes: vec![0.0; nodes],
         }
     }
 
@@ -258,7 +263,7 @@ impl<const D: usize> Assembly<D> {
         scale: f64,
         local: &mut Local<D>,
     ) -> Result<(), StructureError> {
-        let Local { field, force, matrix, blocks } = local;
+        let Local { field, force, matrix, blocks, .. } = local;
         kernel::add_internal_force_and_tangent(
             self.elements.element(e),
             &self.material,

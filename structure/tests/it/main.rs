@@ -13,6 +13,7 @@ mod newton_loop;
 mod patch_test;
 mod refusals;
 mod restart;
+mod round_off;
 mod tangent;
 mod turek_hron;
 mod vibration;

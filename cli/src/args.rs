@@ -43,6 +43,9 @@ pub(crate) struct Run {
     /// Replace the run in the output folder.
     #[arg(long)]
     pub(crate) force: bool,
+    /// Run nothing where the scene gives a warning that it does not accept.
+    #[arg(long)]
+    pub(crate) deny_warnings: bool,
     #[command(flatten)]
     pub(crate) manner: Manner,
 }
@@ -51,6 +54,12 @@ pub(crate) struct Run {
 pub(crate) struct Check {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
+    /// End with exit code 2 where the scene gives a warning that it does not accept.
+    #[arg(long)]
+    pub(crate) deny_warnings: bool,
+    /// Print the description, the warnings and the errors as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

@@ -12,6 +12,7 @@ use partita_structure::{MaterialError, StructureError, StructureSolver};
 use thiserror::Error;
 
 pub(crate) use fluid::nearest_node;
+pub(crate) use interface::transfer;
 pub(crate) use structure::{boundary, place_in};
 
 use crate::adapt::{Adapter, Slot};
@@ -63,7 +64,7 @@ pub fn run_on(Resolved { scene, shapes, .. }: &Resolved, threads: usize) -> Resu
     let (settings, transfers) = match (&scene.coupling, &fluid, &structure) {
         (Some(coupling), Some(fluid), Some(structure)) => {
             let tolerance = coupling.projection_tolerance.get();
-            (coupling::settings(coupling), vec![interface::transfer(fluid, structure, tolerance)?])
+            (coupling::settings(coupling), vec![transfer(fluid, structure, tolerance)?])
         }
         _ => (coupling::one_call(), Vec::<Box<dyn Transfer>>::new()),
     };

@@ -7,18 +7,15 @@ use partita_fluid::FluidSolver;
 use partita_mesh::{Mesh, Place, quality, simplex};
 use partita_structure::{Space, StructureSolver};
 
-use crate::build::{self, BuildError};
+use crate::build::Run;
 use crate::memory;
 use crate::scene::schema::{Condition, Coupling, Direction, Fluid, Part, Structure, plain};
 use crate::scene::{Resolved, words};
 
-/// Builds the scene and describes it: title, meshes with their boundary groups, splines, interface, choices. The last
-/// line is `scene is sound`.
-///
-/// # Errors
-/// When the parts of the scene do not fit together.
-pub fn describe(resolved: &Resolved) -> Result<String, BuildError> {
-    let run = build::run(resolved)?;
+/// Describes a scene and the run that was built from it: title, meshes with their boundary groups, splines, interface,
+/// choices. The last line is `scene is sound`.
+#[must_use]
+pub fn describe(resolved: &Resolved, run: &Run) -> String {
     let scene = &resolved.scene;
     let (fluid, structure) = (run.first().field(), run.second().field());
     let mut page = Page { text: format!("{}\n", scene.title) };
@@ -37,7 +34,7 @@ pub fn describe(resolved: &Resolved) -> Result<String, BuildError> {
     }
     page.line("memory", format!("about {}", memory::words(memory_of(fluid, structure))));
     page.text.push_str("scene is sound\n");
-    Ok(page.text)
+    page.text
 }
 
 fn memory_of(fluid: Option<&FluidSolver<2>>, structure: Option<&StructureSolver<2>>) -> f64 {

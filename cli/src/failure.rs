@@ -13,9 +13,10 @@ use partita::session::RunError;
 use partita::stability::StoreError;
 use partita::study::{StudyError, StudyFailure};
 use partita_mesh::vtu::VtuError;
+use serde_json::{Value, json};
 
 /// The scene or the command line is wrong.
-const WRONG_INPUT: u8 = 2;
+pub(crate) const WRONG_INPUT: u8 = 2;
 /// The run failed.
 const FAILED_RUN: u8 = 3;
 
@@ -50,6 +51,31 @@ impl Failure {
             },
             other => other.into(),
         }
+    }
+
+    /// Warnings that the user does not want to pass.
+    pub(crate) fn denied(count: usize) -> Self {
+        let warnings = if count == 1 { "1 warning is".to_owned() } else { format!("{count} warnings are") };
+        let what = format!("{warnings} denied by --deny-warnings");
+        let hint = "change the scene, or accept a warning by its name with a reason: a line such as \
+                    `long_step = \"only the steady state counts\"` under [warnings.accept]"
+            .to_owned();
+        Self { code: WRONG_INPUT, report: Complaint { what, hint }.into() }
+    }
+
+    /// The exit code.
+    pub(crate) fn code(&self) -> ExitCode {
+        ExitCode::from(self.code)
+    }
+
+    /// What is wrong, each with its remedy, as data.
+    pub(crate) fn problems(&self) -> Vec<Value> {
+        let one = |problem: &dyn Diagnostic| {
+            let help = problem.help().map(|help| help.to_string()).unwrap_or_default();
+            json!({ "what": problem.to_string(), "remedy": help, "place": place(problem) })
+        };
+        let top: &dyn Diagnostic = &*self.report;
+        top.related().map_or_else(|| vec![one(top)], |several| several.map(one).collect())
     }
 
     /// Standard output takes nothing.
@@ -137,6 +163,13 @@ impl From<RunError> for Failure {
             _ => Self { code: FAILED_RUN, report: Complaint::from_display(&error).into() },
         }
     }
+}
+
+/// File and line of the first mark.
+fn place(problem: &dyn Diagnostic) -> Option<String> {
+    let mark = problem.labels()?.next()?;
+    let text = problem.source_code()?.read_span(mark.inner(), 0, 0).ok()?;
+    Some(format!("{}:{}", text.name()?, text.line() + 1))
 }
 
 /// A message of a library: what and where, then a line `hint: ...`.

@@ -2,6 +2,7 @@
 
 mod args;
 mod failure;
+mod standing;
 
 use std::fs;
 use std::io::{self, ErrorKind, Write as _};
@@ -11,11 +12,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Parser;
 use partita::output::{Clock, Ending, Summary};
+use partita::scene::Resolved;
 use partita::session::{Options, RunError, Session};
+use partita::warning::{self, Warning};
 use partita::{build, check, output, plan, scene, stability, study};
 
-use args::{Arguments, Check, Command, Manner, Plan, Resume, Run, Stability, Study};
+use args::{Arguments, Check, Command, Manner, Plan, Resume, Run, SceneArguments, Stability, Study};
 use failure::Failure;
+use standing::Standing;
 
 /// Set when the user asks to stop; the run ends after its step.
 static STOP: AtomicBool = AtomicBool::new(false);
@@ -39,19 +43,75 @@ fn main() -> ExitCode {
 fn run(arguments: &Run, clock: Clock) -> Result<ExitCode, Failure> {
     let resolved = scene::load(&arguments.scene.path, &arguments.scene.overrides)?;
     let dir = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(&resolved.name));
+    let options = options(&arguments.manner);
+    let built = build::run_on(&resolved, options.threads())?;
+    let warnings = warning::of(&resolved, &built);
+    if !arguments.manner.quiet {
+        warn(&warnings);
+    }
+    deny(&warnings, arguments.deny_warnings)?;
+    beyond_the_end(&arguments.manner, &resolved);
     if arguments.force {
-        build::run(&resolved)?;
         output::remove_run(&dir)?;
     }
-    let session = Session::start(&resolved, &dir, options(&arguments.manner), clock)
+    let session = Session::start_with(built, &resolved, &dir, options, clock)
         .map_err(Failure::before_the_first_step)?;
     finish(session, &dir, &arguments.manner)
 }
 
 fn check(arguments: &Check) -> Result<ExitCode, Failure> {
-    let resolved = scene::load(&arguments.scene.path, &arguments.scene.overrides)?;
-    print(&check::describe(&resolved)?)?;
-    Ok(ExitCode::SUCCESS)
+    let outcome = look_at(&arguments.scene);
+    if arguments.json {
+        return check_in_json(outcome, arguments.deny_warnings);
+    }
+    let Checked { description, warnings } = outcome?;
+    warn(&warnings);
+    let denied = deny(&warnings, arguments.deny_warnings);
+    if denied.is_ok() {
+        print(&description)?;
+    }
+    denied.map(|()| ExitCode::SUCCESS)
+}
+
+/// A scene that was built, in words.
+struct Checked {
+    description: String,
+    warnings: Vec<Warning>,
+}
+
+fn look_at(scene: &SceneArguments) -> Result<Checked, Failure> {
+    let resolved = scene::load(&scene.path, &scene.overrides)?;
+    let run = build::run(&resolved)?;
+    Ok(Checked { description: check::describe(&resolved, &run), warnings: warning::of(&resolved, &run) })
+}
+
+/// The same as one object; its exit code is that of the words.
+fn check_in_json(outcome: Result<Checked, Failure>, deny: bool) -> Result<ExitCode, Failure> {
+    let (object, code) = match outcome {
+        Ok(Checked { description, warnings }) => {
+            let denied = deny && warning::open(&warnings).next().is_some();
+            let object = serde_json::json!({ "sound": true, "description": description, "warnings": warnings, "errors": [] });
+            (object, if denied { ExitCode::from(failure::WRONG_INPUT) } else { ExitCode::SUCCESS })
+        }
+        Err(failure) => {
+            let errors = failure.problems();
+            (serde_json::json!({ "sound": false, "warnings": [], "errors": errors }), failure.code())
+        }
+    };
+    print(&(serde_json::to_string_pretty(&object).expect("strings and lists") + "\n"))?;
+    Ok(code)
+}
+
+/// Prints the warnings that the scene does not accept, one line each, on stderr.
+fn warn(warnings: &[Warning]) {
+    for warning in warning::open(warnings) {
+        eprintln!("{warning}");
+    }
+}
+
+fn deny(warnings: &[Warning], denied: bool) -> Result<(), Failure> {
+    let count = warning::open(warnings).count();
+    if denied && count > 0 { Err(Failure::denied(count)) } else { Ok(()) }
 }
 
 fn plan(arguments: &Plan) -> Result<ExitCode, Failure> {
@@ -65,8 +125,35 @@ fn resume(arguments: &Resume, clock: Clock) -> Result<ExitCode, Failure> {
         return Err(Failure::no_run(&arguments.dir));
     }
     let resolved = scene::load(&arguments.dir, &[])?;
+    beyond_the_end(&arguments.manner, &resolved);
+    if let Some(standing) = standing::nothing_left(&resolved, &arguments.dir, arguments.manner.steps)? {
+        return nothing_to_do(&standing, &arguments.dir, &arguments.manner);
+    }
     let session = Session::resume(&resolved, &arguments.dir, options(&arguments.manner), clock)?;
     finish(session, &arguments.dir, &arguments.manner)
+}
+
+/// Says that a run has no step left to make, and is left as it is.
+fn nothing_to_do(standing: &Standing, dir: &Path, manner: &Manner) -> Result<ExitCode, Failure> {
+    if !manner.quiet {
+        eprintln!("{standing}");
+    }
+    if manner.json
+        && let Ok(summary) = fs::read_to_string(dir.join(output::SUMMARY))
+    {
+        print(&summary)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A note where more steps are asked for than the scene has.
+fn beyond_the_end(manner: &Manner, resolved: &Resolved) {
+    let steps = resolved.scene.time.steps;
+    if let Some(asked) = manner.steps.filter(|asked| asked.get() > steps.get() && !manner.quiet) {
+        eprintln!(
+            "note: --steps {asked} asks for more than the {steps} steps of the scene, where the run ends; `time.steps` says how many there are"
+        );
+    }
 }
 
 fn study(arguments: &Study) -> Result<ExitCode, Failure> {
@@ -165,6 +252,15 @@ fn comment(summary: &Summary, dir: &Path) {
         eprintln!(
             "warning: {unconverged_steps} of {steps} steps ended on the iteration bound, not converged"
         );
+    }
+    for (field, work) in [("fluid", &summary.fluid), ("structure", &summary.structure)] {
+        if work.idle_steps > 0 {
+            eprintln!(
+                "warning: the {field} made no Newton iteration in {} of {steps} steps, although more than a thousandth of its \
+                 load was not balanced: `{field}.newton.tolerance` is too large for this load",
+                work.idle_steps
+            );
+        }
     }
     eprintln!("output in {dir}");
     if matches!(summary.ending, Ending::Interrupted | Ending::Stopped) {

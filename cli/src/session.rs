@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use partita_coupling::{IterationRecord, MarchState, Observer, RetryRecord, StepError, StepRecord};
 use partita_fluid::FluidState;
+use partita_numerics::time::shown;
 use partita_structure::StructureState;
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +20,7 @@ use crate::output::{Clock, Ending, OutputError, RunWriter, Spent, Summary};
 use crate::probe::Probes;
 use crate::progress::Progress;
 use crate::scene::Resolved;
-use crate::scene::schema::{Count, Output, Scene};
+use crate::scene::schema::{Count, Output, Scene, Warnings};
 
 /// How a run is to be carried out; nothing here changes its numbers.
 #[derive(Debug, Clone, Copy, Default)]
@@ -35,7 +36,9 @@ pub struct Options<'a> {
 }
 
 impl Options<'_> {
-    fn threads(&self) -> usize {
+    /// The number of threads, at least one.
+    #[must_use]
+    pub fn threads(&self) -> usize {
         self.threads.map_or(1, NonZeroUsize::get)
     }
 }
@@ -53,7 +56,7 @@ pub enum RunError {
     #[error(transparent)]
     Output(#[from] OutputError),
     /// What a step came to could not be written.
-    #[error("step {step} (t = {time} s), output: {}\nhint: see that the folder can be written and has space; {}", first_line(source), way_back(dir, *checkpoint))]
+    #[error("step {step} (t = {} s), output: {}\nhint: see that the folder can be written and has space; {}", shown(*time), first_line(source), way_back(dir, *checkpoint))]
     Storage {
         /// The last step that was solved.
         step: usize,
@@ -113,7 +116,20 @@ impl<'a> Session<'a> {
         options: Options<'a>,
         clock: Clock,
     ) -> Result<Self, RunError> {
-        let run = build::run_on(resolved, options.threads())?;
+        Self::start_with(build::run_on(resolved, options.threads())?, resolved, dir, options, clock)
+    }
+
+    /// The same with the run that was built from the scene.
+    ///
+    /// # Errors
+    /// When the folder cannot be written, or its disk has less space than the run will fill.
+    pub fn start_with(
+        run: Run,
+        resolved: &'a Resolved,
+        dir: &Path,
+        options: Options<'a>,
+        clock: Clock,
+    ) -> Result<Self, RunError> {
         let scene = &resolved.scene;
         let probes = Probes::new(&scene.output.probes, &run);
         let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
@@ -270,6 +286,15 @@ impl<'a> Session<'a> {
     }
 }
 
+/// Steps of the scene that the checkpoint in the folder of a run has behind it.
+///
+/// # Errors
+/// When there is no usable checkpoint.
+pub fn steps_done(resolved: &Resolved, dir: &Path) -> Result<usize, RunError> {
+    let checkpoint = checkpoint::load::<RunState>(dir)?;
+    Ok(resolved.scene.time.sizes().done(&checkpoint.state.march.clock))
+}
+
 /// Coupling iterations that a step is taken to need when its records are estimated.
 const ITERATIONS_A_STEP: usize = 8;
 
@@ -349,6 +374,7 @@ fn decisive(resolved: &Resolved) -> String {
     let mut resolved = resolved.clone();
     resolved.scene.time.steps = Count::literal(1);
     resolved.scene.output = Output::default();
+    resolved.scene.warnings = Warnings::default();
     let inputs = resolved.shapes.inputs.iter();
     let sums =
         inputs.map(|input| format!("# {} has checksum {:08x}\n", input.name, crc32fast::hash(&input.bytes)));
@@ -389,7 +415,11 @@ impl Observer for Watch<'_> {
         }
         self.progress.say(&format!(
             "step {} (t = {} s) of {} s failed, goes on with {} s: {}",
-            record.step, record.time, record.dt, record.next_dt, record.cause
+            record.step,
+            shown(record.time),
+            shown(record.dt),
+            shown(record.next_dt),
+            record.cause
         ));
     }
 }

@@ -175,9 +175,8 @@ fn lead(field: Option<&ParticipantError>) -> String {
 
 /// Whether more iterations would help.
 fn outlook(stands_since: Option<usize>, idle: &[IdleField]) -> String {
-    let since = stands_since.map_or_else(String::new, |iteration| {
-        format!("; |r| has not fallen since iteration {iteration}")
-    });
+    let since = stands_since
+        .map_or_else(String::new, |iteration| format!("; |r| has not fallen since iteration {iteration}"));
     if !idle.is_empty() {
         let list = |part: fn(&IdleField) -> String, and| idle.iter().map(part).collect::<Vec<_>>().join(and);
         return format!(

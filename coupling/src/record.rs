@@ -386,7 +386,10 @@ mod tests {
         assert_eq!((fluid.idle_under_load, fluid.at_round_off), (false, 0));
         assert_eq!((structure.idle_under_load, structure.at_round_off), (true, 2));
         history.iterations[1].fields[1].newton = 1;
-        assert!(!StepRecord::new(&history, true).fields[1].idle_under_load, "it moved in the second iteration");
+        assert!(
+            !StepRecord::new(&history, true).fields[1].idle_under_load,
+            "it moved in the second iteration"
+        );
     }
 
     #[test]

@@ -46,7 +46,8 @@ impl<const D: usize> FluidSolver<D> {
         let passing: f64 = self.mesh.topology().boundary().iter().map(|facet| flux(facet).abs()).sum();
         let of_group = |(group, condition): &(String, BoundaryCondition<D>)| {
             let outlet = Outlet::of(condition)?;
-            let entering: f64 = self.mesh.group(group)?.facets.iter().map(|facet| (-flux(facet)).max(0.0)).sum();
+            let entering: f64 =
+                self.mesh.group(group)?.facets.iter().map(|facet| (-flux(facet)).max(0.0)).sum();
             let is_notable = entering > NOTABLE * passing;
             is_notable.then(|| Backflow { group: group.clone(), outlet, share: entering / passing })
         };

@@ -3,6 +3,7 @@
 use partita_mesh::Place;
 use partita_mesh::motion::MotionError;
 use partita_numerics::FactorError;
+use partita_numerics::time::shown;
 
 /// Why a fluid cannot be set up or advanced.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -99,9 +100,9 @@ pub enum FluidError {
     },
     /// Prescribed velocities do not keep the volume.
     #[error(
-        "t = {time} s, fluid: prescribed velocities carry a net {net:.3e} m^{dimension}/s out of a closed domain \
+        "t = {} s, fluid: prescribed velocities carry a net {net:.3e} m^{dimension}/s out of a closed domain \
          ({gross:.3e} m^{dimension}/s pass its boundary)\n\
-         hint: make one boundary an outflow or a traction, or balance inflow and outflow edge by edge"
+         hint: make one boundary an outflow or a traction, or balance inflow and outflow edge by edge", shown(*time)
     )]
     NetFlux {
         /// When `[s]`.
@@ -114,7 +115,7 @@ pub enum FluidError {
         dimension: usize,
     },
     /// A time step that is not one.
-    #[error("fluid: time step {dt} s to t = {time} s\nhint: time steps are positive and finite")]
+    #[error("fluid: time step {dt} s to t = {} s\nhint: time steps are positive and finite", shown(*time))]
     TimeStep {
         /// The end of the step `[s]`.
         time: f64,
@@ -123,8 +124,8 @@ pub enum FluidError {
     },
     /// A prescribed value that is infinite or not a number.
     #[error(
-        "t = {time} s, fluid: the {what} at node {node}, {place}, is not finite\n\
-         hint: check its expression there"
+        "t = {} s, fluid: the {what} at node {node}, {place}, is not finite\n\
+         hint: check its expression there", shown(*time)
     )]
     NotFinite {
         /// When `[s]`.
@@ -137,7 +138,7 @@ pub enum FluidError {
         place: Place,
     },
     /// The mesh could not follow its boundary.
-    #[error("t = {time} s, fluid: {source}")]
+    #[error("t = {} s, fluid: {source}", shown(*time))]
     Motion {
         /// When `[s]`.
         time: f64,
@@ -148,7 +149,7 @@ pub enum FluidError {
     #[error("fluid: {0}")]
     MotionSetup(#[from] MotionError),
     /// The tangent could not be factored.
-    #[error("t = {time} s, fluid: {source}")]
+    #[error("t = {} s, fluid: {source}", shown(*time))]
     Factorization {
         /// When `[s]`.
         time: f64,

@@ -21,6 +21,7 @@
 //! Prescribed dofs are eliminated; the residual is kept on all dofs, so that its prescribed rows are the
 //! forces that hold the values.
 
+mod added_mass;
 mod assembly;
 mod backflow;
 mod boundary;

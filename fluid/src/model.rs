@@ -97,6 +97,11 @@ impl<const D: usize> BoundaryCondition<D> {
         self.rank() == 0
     }
 
+    /// Whether another field is on the other side.
+    pub(crate) fn is_interface(&self) -> bool {
+        matches!(self, Self::Interface | Self::RigidInterface)
+    }
+
     /// Whether the condition moves the boundary.
     pub(crate) fn moves(&self) -> bool {
         matches!(self, Self::Interface | Self::WallMotion(_))

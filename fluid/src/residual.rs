@@ -12,7 +12,7 @@ use crate::kernel::{TERMS, Terms};
 const CANCELLATION: f64 = 1e-5;
 
 /// Sums over the elements of the squared sizes of their terms, before anything cancels.
-#[derive(Debug, Default, Clone, Copy)]
+#[derive(Debug, Default, Clone, Copy, PartialEq)]
 pub(crate) struct Sizes {
     pub(crate) momentum: f64,
     pub(crate) continuity: f64,

@@ -41,9 +41,11 @@ impl<const D: usize> FluidSolver<D> {
         let Some(bdf) = self.trial.bdf.filter(|_| !self.mesh_is_fixed) else { return sizes };
         let flow = &self.trial.flow;
         let largest_displacement = |node: &usize| {
-            self.trial.displacement[node * D..(node + 1) * D].iter().fold(0.0, |most: f64, d| most.max(d.abs()))
+            self.trial.displacement[node * D..(node + 1) * D]
+                .iter()
+                .fold(0.0, |most: f64, d| most.max(d.abs()))
         };
-        for nodes in self.mesh.cells().iter() {
+        for nodes in self.mesh.cells() {
             let displacement = nodes.iter().map(largest_displacement).fold(0.0, f64::max);
             if displacement > 0.0 {
                 let speed = bdf.c[0].abs() * displacement;

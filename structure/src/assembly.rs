@@ -110,11 +110,20 @@ impl<const D: usize> Assembly<D> {
 
     /// The same with damping.
     pub(crate) fn with_damping(mut self, rayleigh: Rayleigh) -> Self {
+        let mut matrix = self.linear_stiffness(rayleigh.stiffness);
+        for (c, m) in matrix.iter_mut().zip(&self.mass) {
+            *c += rayleigh.mass * m;
+        }
+        self.damping = Some(Damping { rayleigh, linearized: self.material.linearized(), matrix });
+        self
+    }
+
+    /// `factor K_0` on the pattern: the stiffness of the undeformed structure.
+    pub(crate) fn linear_stiffness(&self, factor: f64) -> Vec<f64> {
         let linearized = self.material.linearized();
-        let mut matrix = self.matrix(|e, Local { field, force, matrix, blocks, .. }| {
+        self.matrix(|e, Local { field, force, matrix, blocks, .. }| {
             let element = self.elements.element(e);
             field.fill([0.0; D]);
-            let factor = rayleigh.stiffness;
             kernel::add_internal_force_and_tangent(
                 element,
                 &linearized,
@@ -125,12 +134,7 @@ impl<const D: usize> Assembly<D> {
                 blocks,
             )
             .expect(HOOKE);
-        });
-        for (c, m) in matrix.iter_mut().zip(&self.mass) {
-            *c += rayleigh.mass * m;
-        }
-        self.damping = Some(Damping { rayleigh, linearized, matrix });
-        self
+        })
     }
 
     pub(crate) fn dofs(&self) -> &DofMap {

@@ -338,6 +338,15 @@ impl<const D: usize> StructureSolver<D> {
         self.factor.indefinite_count()
     }
 
+    pub(crate) fn has_inertia(&self) -> bool {
+        self.scheme != Scheme::QuasiStatic
+    }
+
+    /// A step of this size `[s]`, without starting it.
+    pub(crate) fn step_of(&self, dt: f64) -> Step {
+        Step::new(self.scheme, dt)
+    }
+
     pub(crate) fn step(&self) -> &Step {
         self.step.as_ref().expect("`begin_step` comes before the first assembly")
     }

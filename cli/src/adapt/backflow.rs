@@ -82,7 +82,8 @@ mod tests {
 
     #[test]
     fn every_outlet_without_stabilization_is_named_with_its_key() {
-        let found = advice(&[backflow("far right", OPEN), backflow("top", FREE), backflow("left", Outlet::Traction)]);
+        let found =
+            advice(&[backflow("far right", OPEN), backflow("top", FREE), backflow("left", Outlet::Traction)]);
         let Suspect { advice, comes_first } = found.expect("a suspect");
         assert!(comes_first);
         for part in [

@@ -80,7 +80,16 @@ macro_rules! field {
     };
 }
 
-field!(FluidSolver<2>, FluidState, FluidError, "fluid", identity, |_: &mut Self| Ok(()), fluid_work, backflow::suspect);
+field!(
+    FluidSolver<2>,
+    FluidState,
+    FluidError,
+    "fluid",
+    identity,
+    |_: &mut Self| Ok(()),
+    fluid_work,
+    backflow::suspect
+);
 // No interface data can break a structure before its equations are solved.
 field!(
     StructureSolver<2>,

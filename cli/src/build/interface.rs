@@ -14,7 +14,7 @@ use super::BuildError;
 ///
 /// # Errors
 /// When a fluid node lies farther from the wetted sides than `tolerance` times the interface's extent.
-pub(super) fn transfer(
+pub(crate) fn transfer(
     fluid: &FluidSolver<2>,
     structure: &StructureSolver<2>,
     tolerance: f64,

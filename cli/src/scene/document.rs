@@ -25,6 +25,11 @@ impl Source {
         &self.padded[self.start..]
     }
 
+    /// Whether it is an override and not the scene file.
+    pub(super) fn is_override(&self) -> bool {
+        self.names > 0
+    }
+
     /// A place in all texts as a place in this one.
     pub(super) fn local(&self, place: &Range<usize>) -> Range<usize> {
         let end = self.text().len();

@@ -7,6 +7,7 @@ mod diagnose;
 mod document;
 mod finding;
 mod overrides;
+mod places;
 pub mod reference;
 mod resolve;
 pub mod schema;
@@ -16,6 +17,7 @@ mod validate;
 mod write;
 
 pub use diagnose::{Problem, SceneError};
+pub use places::Places;
 pub use resolve::{Resolved, SCENE_FILE, load, parse, read_in};
 pub use shapes::Shapes;
 pub(crate) use shapes::{INPUT_FILES, INPUT_FOLDER, Input};

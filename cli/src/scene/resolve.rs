@@ -12,11 +12,13 @@ use super::diagnose::SceneError;
 use super::document::{Document, Sources};
 use super::finding::Finding;
 use super::overrides::Override;
+use super::places::Places;
 use super::schema::Scene;
 use super::shapes::{self, Shapes};
 use super::translate::translate;
 use super::validate::{Check, validate, validate_shapes};
 use super::write;
+use crate::file_kind::FileKind;
 
 /// A scene that has passed every check, with its shapes.
 #[derive(Debug, Clone)]
@@ -29,6 +31,8 @@ pub struct Resolved {
     pub name: String,
     /// The file it was read from.
     pub file: PathBuf,
+    /// Where its keys stand.
+    pub places: Places,
 }
 
 impl Resolved {
@@ -54,6 +58,9 @@ pub const SCENE_FILE: &str = "scene.toml";
 pub fn load(path: &Path, overrides: &[String]) -> Result<Resolved, SceneError> {
     let file = if path.is_dir() { path.join(SCENE_FILE) } else { path.to_owned() };
     let text = fs::read_to_string(&file).map_err(|error| unreadable(path, &file, &error))?;
+    if let Some((what, hint)) = FileKind::Scene.misplaced(path) {
+        return Err(SceneError::plain(what, hint));
+    }
     let folder = file.parent().unwrap_or(Path::new(""));
     let resolved = read_in(folder, &file.display().to_string(), &text, overrides)?;
     Ok(Resolved { name: name_of(&file), file, ..resolved })
@@ -65,14 +72,14 @@ pub fn load(path: &Path, overrides: &[String]) -> Result<Resolved, SceneError> {
 ///
 /// [`SceneError`] with every place that is wrong and how to mend it.
 pub fn read_in(folder: &Path, name: &str, text: &str, overrides: &[String]) -> Result<Resolved, SceneError> {
-    let (scene, shapes) = resolve(name, text, overrides, |sources| {
+    let (scene, shapes, places) = resolve(name, text, overrides, |sources| {
         let (scene, document) = check(sources)?;
         let mut findings = Check::new(&document);
         let shapes = Shapes::make(&scene, folder, &mut findings);
         validate_shapes(&mut findings, &scene, &shapes);
-        findings.done((scene, shapes))
+        findings.done((scene, shapes, Places::of(&document, sources)))
     })?;
-    Ok(Resolved { scene, shapes, name: name.to_owned(), file: folder.join(name) })
+    Ok(Resolved { scene, shapes, name: name.to_owned(), file: folder.join(name), places })
 }
 
 /// Reads the scene in a text; `name` is what messages call it. Files that it names are not looked at.

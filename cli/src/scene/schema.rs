@@ -14,6 +14,7 @@ mod newton;
 mod numbers;
 mod output;
 mod structure;
+mod warnings;
 
 use partita_coupling::StepSizes;
 use schemars::JsonSchema;
@@ -41,6 +42,7 @@ pub use numbers::{
 };
 pub use output::{Known, Line, Output, Probe};
 pub use structure::{Elastic, Material, Part, Plane, RayleighDamping, Structure, StructureTimeScheme};
+pub use warnings::{Reason, Warnings};
 
 /// A whole scene: a fluid, a structure, or both coupled.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -62,6 +64,9 @@ pub struct Scene {
     /// What is written, and how often.
     #[serde(default)]
     pub output: Output,
+    /// Which warnings are accepted, and why.
+    #[serde(default, skip_serializing_if = "Warnings::is_empty")]
+    pub warnings: Warnings,
 }
 
 impl Scene {

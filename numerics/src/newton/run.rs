@@ -1,6 +1,8 @@
 //! The loop itself.
 
-use super::{Bound, Check, Failure, Iteration, KeptFactor, Limit, Problem, Report, ResidualNorm, Settings, Verdict};
+use super::{
+    Bound, Check, Failure, Iteration, KeptFactor, Limit, Problem, Report, ResidualNorm, Settings, Verdict,
+};
 
 /// Runs Newton iterations on `problem` from its current iterate until the bound is met, `limit` is reached
 /// or the callback `after` says stop.

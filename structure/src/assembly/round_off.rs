@@ -14,7 +14,12 @@ impl<const D: usize> Assembly<D> {
     ///
     /// Inside an element the parts add up, as the error of one displacement does; those of different elements are taken to
     /// be independent.
-    pub(crate) fn rounding(&self, displacement: &[f64], weights: &TangentWeights, local: &mut Local<D>) -> f64 {
+    pub(crate) fn rounding(
+        &self,
+        displacement: &[f64],
+        weights: &TangentWeights,
+        local: &mut Local<D>,
+    ) -> f64 {
         let mut squares = 0.0;
         for e in 0..self.elements.len() {
             local.gather(self.elements.nodes(e), displacement);

@@ -3,7 +3,7 @@
 use partita_iga::{Side, build};
 use partita_mesh::generate::{SolidRectangle, solid_rectangle};
 use partita_numerics::newton::{self, Bound, Limit, Problem, Verdict};
-use partita_structure::{Boundary, BodyForce, Material, Rayleigh, Space, StructureSettings, StructureSolver};
+use partita_structure::{BodyForce, Boundary, Material, Rayleigh, Space, StructureSettings, StructureSolver};
 
 use crate::common::{KINDS, bare, dynamic, linear, neo_hookean, on_mesh, quasi_static, solver, svk};
 
@@ -31,8 +31,7 @@ impl Strip {
 
     fn patch(self, degree: [usize; 2], elements: [usize; 2]) -> StructureSolver<2> {
         let mut model = bare(self.material);
-        model.clamped =
-            if self.both_ends { [Side::LEFT, Side::RIGHT].into() } else { [Side::LEFT].into() };
+        model.clamped = if self.both_ends { [Side::LEFT, Side::RIGHT].into() } else { [Side::LEFT].into() };
         model.body_force = self.body_force();
         let patch = build::rectangle([0.0, 0.0], [1.0, self.height], degree, elements).unwrap();
         solver(patch, model, self.settings)
@@ -69,12 +68,21 @@ fn measure() {
     ] {
         for height in [0.2, 0.02, 2e-3, 2e-4] {
             for degree in [[1, 1], [2, 2], [3, 2], [3, 3]] {
-              for reach in [1e-6, 0.05] {
-                let found = floor(&mut Strip { reach, ..Strip::new(material, height) }.patch(degree, [16, 1]), 1.0);
-                let settings = dynamic(0.5);
-                let moving = floor(&mut Strip { settings, reach, ..Strip::new(material, height) }.patch(degree, [16, 1]), 1e-3);
-                println!("{name:8} {height:6} {degree:?} {reach:e} least {:8.3} most {:8.3} estimate {:8.1e}   dyn {:8.3} {:8.3} {:8.1e}", found[0], found[1], found[2], moving[0], moving[1], moving[2]);
-              }
+                for reach in [1e-6, 0.05] {
+                    let found = floor(
+                        &mut Strip { reach, ..Strip::new(material, height) }.patch(degree, [16, 1]),
+                        1.0,
+                    );
+                    let settings = dynamic(0.5);
+                    let moving = floor(
+                        &mut Strip { settings, reach, ..Strip::new(material, height) }.patch(degree, [16, 1]),
+                        1e-3,
+                    );
+                    println!(
+                        "{name:8} {height:6} {degree:?} {reach:e} least {:8.3} most {:8.3} estimate {:8.1e}   dyn {:8.3} {:8.3} {:8.1e}",
+                        found[0], found[1], found[2], moving[0], moving[1], moving[2]
+                    );
+                }
             }
         }
     }

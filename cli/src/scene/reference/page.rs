@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use super::{SCENE, list, object, resolved, variant_name};
 use crate::scene::write;
+use crate::warning::Kind;
 
 const HEAD: &str = "\
 # Scene files
@@ -27,6 +28,7 @@ changes any key.
 pub fn markdown() -> String {
     let mut page = Page { text: HEAD.to_owned(), shown: BTreeMap::new() };
     page.keys("", &SCENE);
+    page.warnings();
     page.text
 }
 
@@ -59,6 +61,17 @@ impl Page {
             } else {
                 self.keys(&path, node);
             }
+        }
+    }
+
+    /// The names that `warnings.accept` knows.
+    fn warnings(&mut self) {
+        self.line(format_args!(
+            "\n## The warnings\n\n`check` and the start of `run` print a line for each; with `--deny-warnings` they end \
+             with exit code 2 where one is not accepted.\n\n| name | given when |\n|---|---|"
+        ));
+        for kind in Kind::ALL {
+            self.line(format_args!("| `{}` | {} |", kind.name(), meaning(kind.meaning())));
         }
     }
 

@@ -91,7 +91,10 @@ impl<F: Field> Adapter<F> {
         (0..self.field.part_count())
             .map(|index| {
                 let (name, dofs) = self.field.part(index);
-                Change::new(name, relative_change(&self.entry, self.field.values(), dofs))
+                Change::new(
+                    name,
+                    relative_change(&self.entry, self.field.values(), dofs, self.field.resolution(index)),
+                )
             })
             .collect()
     }
@@ -114,8 +117,16 @@ where
         &self.output
     }
 
+    fn resolution(&self) -> f64 {
+        self.field.output_resolution()
+    }
+
+    fn set_input_resolution(&mut self, resolution: f64) {
+        self.field.set_input_resolution(resolution);
+    }
+
     fn begin_step(&mut self, step: &Step) -> Result<(), ParticipantError> {
-        self.field.begin_step(step.time, step.dt).map_err(|error| field_error(&self.field, &error))?;
+        self.field.begin_step(step.time, step.dt).map_err(|error| field_error::<F>(&error))?;
         self.entry.copy_from_slice(self.field.values());
         Ok(())
     }
@@ -129,7 +140,7 @@ where
         let before = self.field.phases();
         // Without data the step is as `begin_step` left it.
         if !self.input.is_empty() {
-            self.field.impose(input).map_err(|error| field_error(&self.field, &error))?;
+            self.field.impose(input).map_err(|error| field_error::<F>(&error))?;
         }
         let (limit, settles) = loop_limit(limit);
         let settings = *self.field.newton();
@@ -143,7 +154,7 @@ where
         })
         .map_err(|failure| newton_error(&self.field, &failure))?;
         if report.converged {
-            self.field.verify().map_err(|error| field_error(&self.field, &error))?;
+            self.field.verify().map_err(|error| field_error::<F>(&error))?;
         }
         if !self.output.is_empty() {
             self.field.output(output);
@@ -213,11 +224,11 @@ fn effort(report: &Report, bound: Bound, changes: Vec<Change>, phases: PhaseSeco
 }
 
 /// The field's error in its own words.
-fn field_error<F: Field>(field: &F, error: &F::Error) -> ParticipantError
+fn field_error<F: Field>(error: &F::Error) -> ParticipantError
 where
     F::Error: Error,
 {
-    with_suspect(split_hint(F::NAME, &error.to_string()), field.suspect())
+    split_hint(F::NAME, &error.to_string())
 }
 
 /// A failed Newton loop: where the field itself failed inside, its words follow; otherwise the place of the largest
@@ -228,9 +239,9 @@ where
 {
     let mut error = match failure {
         Failure::Problem { iteration, source } => {
-            let mut error = field_error(field, source);
+            let mut error = field_error::<F>(source);
             error.message = format!("Newton iteration {iteration}: {}", error.message);
-            return error;
+            return with_suspect(error, field.suspect());
         }
         other => split_hint(F::NAME, &other.to_string()),
     };

@@ -113,6 +113,7 @@ pub fn solve_step(
         transfers.apply_transpose(&interface.load, &mut interface.transferred_load);
         seconds.transfer += lap(&mut clock);
 
+        second.set_input_resolution(first.resolution());
         let effort = second
             .advance(&interface.transferred_load, limits.second, &mut interface.x_tilde)
             .map_err(|error| explain(error, history))?;
@@ -126,7 +127,11 @@ pub fn solve_step(
             step: history.step.index,
             iteration,
             residual,
-            relative_residual: ratio(residual, norm(&interface.x_tilde)),
+            relative_residual: if residual <= second.resolution() {
+                0.0
+            } else {
+                ratio(residual, norm(&interface.x_tilde))
+            },
             work_defect: interface.work_defect(),
             fields: [first_record, second_record],
             acceleration: None,
@@ -150,7 +155,7 @@ pub fn solve_step(
         check_finite(&interface.x, "acceleration", second.output())?;
     }
     match at_limit {
-        AtLimit::Fail => Err(too_many_iterations(history)),
+        AtLimit::Fail => Err(too_many_iterations(history, norm(&interface.x_tilde), second.resolution())),
         AtLimit::Accept => Ok(false),
     }
 }
@@ -204,6 +209,10 @@ fn idle_fields(history: &StepHistory) -> Vec<IdleField> {
         return Vec::new();
     }
     let idle = |index: usize| {
+        // What is at round-off cannot answer, however low its bound.
+        if history.iterations[done - LATELY..].iter().any(|iteration| iteration.fields[index].at_round_off) {
+            return None;
+        }
         let moved = history.iterations.iter().rposition(|iteration| iteration.fields[index].newton > 0);
         let moved_last = moved.map_or(0, |position| position + 1);
         let name = history.iterations[0].fields[index].name.clone();
@@ -212,7 +221,10 @@ fn idle_fields(history: &StepHistory) -> Vec<IdleField> {
     [0, 1].into_iter().filter_map(idle).collect()
 }
 
-fn too_many_iterations(history: &StepHistory) -> StepFailure {
+/// An interface that moves by less than this many times its resolution hardly moves.
+const HARDLY: f64 = 1e4;
+
+fn too_many_iterations(history: &StepHistory, displacement: f64, resolution: f64) -> StepFailure {
     let last = history.last().expect("the iteration bound is at least one");
     let open: Vec<&str> =
         last.fields.iter().filter(|field| !field.converged).map(|field| field.name.as_str()).collect();
@@ -228,5 +240,6 @@ fn too_many_iterations(history: &StepHistory) -> StepFailure {
         },
         stands_since: divergence::stands_since(history),
         idle: idle_fields(history),
+        hardly_moves: (displacement < HARDLY * resolution).then_some(displacement),
     }
 }

@@ -130,7 +130,7 @@ pub enum StepFailure {
     },
     /// The iteration bound was reached without convergence.
     #[error(
-        "the step is not converged after {iterations} coupling iterations: |r| = {residual:.3e} m ({relative_residual:.3e} of the interface displacement), largest change {largest_change:.3e}, {open}{}", outlook(*stands_since, idle)
+        "the step is not converged after {iterations} coupling iterations: |r| = {residual:.3e} m ({relative_residual:.3e} of the interface displacement), largest change {largest_change:.3e}, {open}{}", outlook(*stands_since, idle, *hardly_moves)
     )]
     TooManyIterations {
         /// The bound.
@@ -147,6 +147,8 @@ pub enum StepFailure {
         stands_since: Option<usize>,
         /// The fields that have not moved lately although the interface has.
         idle: Vec<IdleField>,
+        /// The norm of the interface displacement \[m\], where it is hardly more than round-off of the structure's size.
+        hardly_moves: Option<f64>,
     },
 }
 
@@ -174,9 +176,15 @@ fn lead(field: Option<&ParticipantError>) -> String {
 }
 
 /// Whether more iterations would help.
-fn outlook(stands_since: Option<usize>, idle: &[IdleField]) -> String {
+fn outlook(stands_since: Option<usize>, idle: &[IdleField], hardly_moves: Option<f64>) -> String {
     let since = stands_since
         .map_or_else(String::new, |iteration| format!("; |r| has not fallen since iteration {iteration}"));
+    if let Some(displacement) = hardly_moves {
+        return format!(
+            "{since}; the interface moves by {displacement:.1e} m in all, hardly more than round-off of its size\nhint: judge such a step \
+             by an absolute bound: `coupling.convergence = {{ interface_residual = {{ absolute = ... }} }}` in metres"
+        );
+    }
     if !idle.is_empty() {
         let list = |part: fn(&IdleField) -> String, and| idle.iter().map(part).collect::<Vec<_>>().join(and);
         return format!(

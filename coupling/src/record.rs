@@ -24,6 +24,7 @@ pub enum Record {
 }
 
 /// One call of one field.
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, each with its own name in records")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FieldRecord {
     /// The field.
@@ -48,7 +49,7 @@ pub struct FieldRecord {
     pub entry_converged: bool,
     /// Whether the field meets its bound at exit, or is at round-off.
     pub converged: bool,
-    /// Whether it converged at round-off, above its bound; left out of the record where not.
+    /// Whether it converged because its residual was round-off, above its bound or already at the entry; left out of the record where not.
     #[serde(default, skip_serializing_if = "is_false")]
     pub at_round_off: bool,
     /// Whether it did not iterate although a good part of its load was not balanced; left out of the record where not.
@@ -93,7 +94,7 @@ pub struct IterationRecord {
     pub iteration: usize,
     /// `|x_tilde - x|` \[m\].
     pub residual: f64,
-    /// `|x_tilde - x| / |x_tilde|`, 0/0 = 0.
+    /// `|x_tilde - x| / |x_tilde|`, 0/0 = 0, and 0 where the difference is round-off of the structure's size.
     #[serde(with = "finite_or_null")]
     pub relative_residual: f64,
     /// `|f . (H x) - F . x| / (|f| |H x|)`: the virtual work lost in the transfer, 0/0 = 0.
@@ -138,7 +139,7 @@ pub struct FieldTotals {
     /// More of its work; nothing in records of older versions.
     #[serde(default)]
     pub details: WorkDetails,
-    /// Calls that converged at round-off, above the field's bound; left out of the record where there are none.
+    /// Calls that converged because their residual was round-off; left out of the record where there are none.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub at_round_off: usize,
     /// Whether the field never iterated in the step although a good part of its load was not balanced; left out of the

@@ -117,7 +117,7 @@ pub struct Report {
     pub entry_converged: bool,
     /// Whether the bound was met where [`Check`] looks, or the residual was [at round-off](Problem::round_offs).
     pub converged: bool,
-    /// Whether it converged at round-off, above the bound.
+    /// Whether it converged because its residual was round-off: above the bound, or at the entry, so that nothing was left to do.
     pub at_round_off: bool,
     /// Whether the callback ended the loop.
     pub stopped_by_callback: bool,

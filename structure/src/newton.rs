@@ -34,13 +34,13 @@ impl<const D: usize> Problem for StructureSolver<D> {
         self.solve_with_kept_factor()
     }
 
-    /// The bound is that of the last bits: of the displacement, in every term that depends on it, and of the terms themselves.
+    /// The unit is that of the last bits: of the displacement, in every term that depends on it, and of the terms themselves.
     fn round_offs(&mut self) -> f64 {
-        let weights = self.step().tangent_weights();
-        let residual = self.residual_norm();
-        let Work { motion, local, .. } = &mut self.work;
-        let rounding = self.assembly.rounding(&motion.displacement, &weights, local);
-        relative(residual.absolute, ROUNDING * rounding.hypot(residual.scale()))
+        self.residual_in_units_of(0.0)
+    }
+
+    fn uncertainties(&mut self) -> f64 {
+        self.residual_in_units_of(self.load_resolution)
     }
 
     fn kept_factor(&self) -> KeptFactor {
@@ -93,6 +93,15 @@ impl<const D: usize> StructureSolver<D> {
             residual[dof] = forces.inertia[dof] + forces.damping[dof] + forces.internal[dof] - external[dof];
         }
         Ok(())
+    }
+
+    /// The residual in units of its round-off and that of the load.
+    fn residual_in_units_of(&mut self, of_load: f64) -> f64 {
+        let weights = self.step().tangent_weights();
+        let residual = self.residual_norm();
+        let Work { motion, local, .. } = &mut self.work;
+        let rounding = self.assembly.rounding(&motion.displacement, &weights, local);
+        relative(residual.absolute, (ROUNDING * rounding.hypot(residual.scale())).hypot(of_load))
     }
 
     fn residual_norm(&self) -> ResidualNorm {

@@ -87,6 +87,16 @@ pub trait Field: Problem {
     /// Name and free dofs of a part.
     fn part(&self, index: usize) -> (&'static str, &[usize]);
 
+    /// Norm of a change of a part that is round-off of the field's natural scale: of lengths for a displacement, of lengths over
+    /// the time step for a velocity beside a moving interface.
+    fn resolution(&self, part: usize) -> f64;
+
+    /// The same of the interface output of the last assembled iterate.
+    fn output_resolution(&self) -> f64;
+
+    /// Tells the same of the interface data to come.
+    fn set_input_resolution(&mut self, resolution: f64);
+
     /// Settings of the Newton loop.
     fn newton(&self) -> &newton::Settings;
 

@@ -13,7 +13,7 @@ use super::backflow;
 use super::field::{Field, Suspect};
 
 macro_rules! field {
-    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr, $verify:expr, $work:expr, $suspect:expr) => {
+    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr, $verify:expr, $work:expr, $suspect:expr, $resolution:expr, $of_output:expr, $of_input:expr) => {
         impl Field for $solver {
             type State = $state;
             const NAME: &'static str = $name;
@@ -67,6 +67,15 @@ macro_rules! field {
                 let part = &self.parts()[index];
                 (part.name, &part.dofs)
             }
+            fn resolution(&self, part: usize) -> f64 {
+                $resolution(self, part)
+            }
+            fn output_resolution(&self) -> f64 {
+                $of_output(self)
+            }
+            fn set_input_resolution(&mut self, resolution: f64) {
+                $of_input(self, resolution);
+            }
             fn newton(&self) -> &newton::Settings {
                 self.newton_settings()
             }
@@ -88,7 +97,12 @@ field!(
     identity,
     |_: &mut Self| Ok(()),
     fluid_work,
-    backflow::suspect
+    backflow::suspect,
+    // Velocity comes first.
+    |fluid: &Self, part| if part == 0 { fluid.velocity_resolution() } else { 0.0 },
+    Self::load_resolution,
+    // It knows how exact displacements can be.
+    |_: &mut Self, _| {}
 );
 // No interface data can break a structure before its equations are solved.
 field!(
@@ -99,7 +113,10 @@ field!(
     Ok,
     Self::check_orientation,
     structure_work,
-    |_: &Self| None
+    |_: &Self| None,
+    |structure: &Self, _| structure.resolution(),
+    Self::resolution,
+    Self::set_load_resolution
 );
 
 fn fluid_work(fluid: &FluidSolver<2>) -> WorkDetails {

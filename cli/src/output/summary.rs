@@ -83,7 +83,7 @@ pub struct Work {
     pub factorizations: usize,
     /// Linear solves with it.
     pub solves: usize,
-    /// Calls that converged at round-off, above the field's bound; left out where there are none.
+    /// Calls that converged because their residual was round-off, above the bound or already at the entry; left out where there are none.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub at_round_off: usize,
     /// Steps in which the field never iterated although more than a thousandth of its load was not balanced; left out where

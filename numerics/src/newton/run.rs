@@ -19,8 +19,8 @@ use super::{
 /// ```
 ///
 /// A residual [at round-off](Problem::round_offs) counts as converged whatever the bound asks for, and the report says so. A
-/// call that enters converged with nothing but [noise](Problem::uncertainties) leaves the iterate alone under
-/// [`Check::Lagged`], too: an iteration could only replace noise by other noise, which a coupling would take for news.
+/// call that enters with nothing but [noise](Problem::uncertainties) leaves the iterate alone, also under
+/// [`Check::Lagged`]: an iteration could only replace noise by other noise, which a coupling would take for news.
 ///
 /// The entry residual is evaluated in every call, whatever an earlier call left behind. The callback sees
 /// every iteration, the last one included. The residual of the report, and all that the problem assembled
@@ -75,7 +75,10 @@ pub fn solve<P: Problem>(
     let mut watch = Watch::new(entry);
     let mut level = Level::of(problem, bound, &entry);
     report.entry_converged = level.is_converged();
-    if level.is_converged() && (!lagged || is_at_rest(problem, &entry)) {
+    if is_at_rest(problem, &entry) {
+        report.entry_converged = true;
+        report.converge(Level::AtRoundOff);
+    } else if level.is_converged() && !lagged {
         report.converge(level);
     }
     while !report.converged && !report.stopped_by_callback && report.iterations < most {
@@ -182,10 +185,10 @@ impl Level {
     }
 }
 
-/// Whether a call that enters converged enters with nothing but noise. Of a residual of zero no iteration makes anything
+/// Whether a call enters with nothing but noise. Of a residual of zero no iteration makes anything
 /// else.
 fn is_at_rest<P: Problem>(problem: &mut P, entry: &ResidualNorm) -> bool {
-    entry.absolute > 0.0 && entry.relative < SMALL && problem.uncertainties() <= 1.0
+    entry.absolute > 0.0 && problem.uncertainties() <= 1.0
 }
 
 /// Assembles and refuses a residual that is not finite.

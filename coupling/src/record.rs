@@ -24,6 +24,7 @@ pub enum Record {
 }
 
 /// One call of one field.
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, each with its own name in records")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FieldRecord {
     /// The field.
@@ -44,10 +45,16 @@ pub struct FieldRecord {
     /// Residual at exit.
     #[serde(with = "finite_or_null")]
     pub residual: f64,
-    /// Whether the field met its bound at entry.
+    /// Whether the field met its bound at entry, or was at round-off.
     pub entry_converged: bool,
-    /// Whether the field meets its bound at exit.
+    /// Whether the field meets its bound at exit, or is at round-off.
     pub converged: bool,
+    /// Whether it converged because its residual was round-off, above its bound or already at the entry; left out of the record where not.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub at_round_off: bool,
+    /// Whether it did not iterate although a good part of its load was not balanced; left out of the record where not.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub idle_under_load: bool,
     /// Relative change of every part of the solution.
     pub changes: Vec<Change>,
     /// More of its work; nothing in records of older versions.
@@ -70,6 +77,8 @@ impl FieldRecord {
             residual: effort.residual,
             entry_converged: effort.entry_converged,
             converged: effort.converged,
+            at_round_off: effort.at_round_off,
+            idle_under_load: effort.idle_under_load,
             changes: effort.changes,
             details: effort.details,
         }
@@ -85,7 +94,7 @@ pub struct IterationRecord {
     pub iteration: usize,
     /// `|x_tilde - x|` \[m\].
     pub residual: f64,
-    /// `|x_tilde - x| / |x_tilde|`, 0/0 = 0.
+    /// `|x_tilde - x| / |x_tilde|`, 0/0 = 0, and 0 where the difference is round-off of the structure's size.
     #[serde(with = "finite_or_null")]
     pub relative_residual: f64,
     /// `|f . (H x) - F . x| / (|f| |H x|)`: the virtual work lost in the transfer, 0/0 = 0.
@@ -130,6 +139,13 @@ pub struct FieldTotals {
     /// More of its work; nothing in records of older versions.
     #[serde(default)]
     pub details: WorkDetails,
+    /// Calls that converged because their residual was round-off; left out of the record where there are none.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub at_round_off: usize,
+    /// Whether the field never iterated in the step although a good part of its load was not balanced; left out of the
+    /// record where not.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub idle_under_load: bool,
 }
 
 /// One finished step.
@@ -220,7 +236,10 @@ impl StepHistory {
             totals.factorizations += call.factorizations;
             totals.solves += call.solves;
             totals.details += call.details;
+            totals.at_round_off += usize::from(call.at_round_off);
+            totals.idle_under_load |= call.idle_under_load;
         }
+        totals.idle_under_load &= totals.newton == 0;
         totals
     }
 }
@@ -270,6 +289,16 @@ impl AddAssign for Seconds {
     }
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature is serde's")]
+fn is_false(flag: &bool) -> bool {
+    !flag
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature is serde's")]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
 /// JSON knows no infinity: a ratio to zero is written as `null` and read back as infinity.
 pub(crate) mod finite_or_null {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -301,6 +330,8 @@ pub(crate) mod samples {
                 residual: 1e-12,
                 entry_converged,
                 converged,
+                at_round_off: false,
+                idle_under_load: false,
                 changes: vec![Change::new(part, value)],
                 time: PhaseTimes::default(),
                 details: WorkDetails { tangents: 2, mesh_solves: 1, ..WorkDetails::default() },
@@ -371,6 +402,32 @@ mod tests {
         {
             assert!(line.contains(needed), "{needed} is not in {line}");
         }
+    }
+
+    #[test]
+    fn a_field_is_idle_in_a_step_if_it_never_iterated_under_its_load() {
+        let mut history = samples::history([0.0, 0.0], true, true);
+        let call = &mut history.iterations[0].fields[1];
+        (call.newton, call.idle_under_load, call.at_round_off) = (0, true, true);
+        history.iterations.push(history.iterations[0].clone());
+        let [fluid, structure] = StepRecord::new(&history, true).fields;
+        assert_eq!((fluid.idle_under_load, fluid.at_round_off), (false, 0));
+        assert_eq!((structure.idle_under_load, structure.at_round_off), (true, 2));
+        history.iterations[1].fields[1].newton = 1;
+        assert!(
+            !StepRecord::new(&history, true).fields[1].idle_under_load,
+            "it moved in the second iteration"
+        );
+    }
+
+    #[test]
+    fn what_hardly_ever_happens_is_left_out_of_a_line_and_read_back() {
+        let mut record = samples::history([0.5, 0.25], false, true).iterations.remove(0);
+        let line = serde_json::to_string(&record).unwrap();
+        assert!(!line.contains("at_round_off") && !line.contains("idle_under_load"), "{line}");
+        (record.fields[0].at_round_off, record.fields[1].idle_under_load) = (true, true);
+        let line = serde_json::to_string(&record).unwrap();
+        assert_eq!(serde_json::from_str::<IterationRecord>(&line).unwrap(), record);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use partita_mesh::Place;
 use partita_mesh::motion::MotionError;
 use partita_numerics::FactorError;
+use partita_numerics::time::shown;
 
 /// Why a fluid cannot be set up or advanced.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -100,9 +101,10 @@ pub enum FluidError {
     },
     /// Prescribed velocities and motions do not keep the volume.
     #[error(
-        "t = {time} s, fluid: {what} carry a net {net:.3e} m^{dimension}/s out of a closed domain \
+        "t = {} s, fluid: {what} carry a net {net:.3e} m^{dimension}/s out of a closed domain \
          ({gross:.3e} m^{dimension}/s pass its boundary)\n\
          hint: make one boundary an outflow or a traction, or {balance}",
+        shown(*time),
         what = if *.moves { "moving walls and prescribed velocities" } else { "prescribed velocities" },
         balance = if *.moves {
             "let the walls enclose the same volume at all times"
@@ -123,7 +125,7 @@ pub enum FluidError {
         dimension: usize,
     },
     /// A time step that is not one.
-    #[error("fluid: time step {dt} s to t = {time} s\nhint: time steps are positive and finite")]
+    #[error("fluid: time step {dt} s to t = {} s\nhint: time steps are positive and finite", shown(*time))]
     TimeStep {
         /// The end of the step `[s]`.
         time: f64,
@@ -132,8 +134,8 @@ pub enum FluidError {
     },
     /// A prescribed value that is infinite or not a number.
     #[error(
-        "t = {time} s, fluid: the {what} at node {node}, {place}, is not finite\n\
-         hint: check its expression there"
+        "t = {} s, fluid: the {what} at node {node}, {place}, is not finite\n\
+         hint: check its expression there", shown(*time)
     )]
     NotFinite {
         /// When `[s]`.
@@ -146,7 +148,7 @@ pub enum FluidError {
         place: Place,
     },
     /// The mesh could not follow its boundary.
-    #[error("t = {time} s, fluid: {source}")]
+    #[error("t = {} s, fluid: {source}", shown(*time))]
     Motion {
         /// When `[s]`.
         time: f64,
@@ -157,7 +159,7 @@ pub enum FluidError {
     #[error("fluid: {0}")]
     MotionSetup(#[from] MotionError),
     /// The tangent could not be factored.
-    #[error("t = {time} s, fluid: {source}")]
+    #[error("t = {} s, fluid: {source}", shown(*time))]
     Factorization {
         /// When `[s]`.
         time: f64,

@@ -259,6 +259,14 @@ impl<const D: usize> Problem for FluidSolver<D> {
         self.solve_with_kept_factor()
     }
 
+    fn round_offs(&mut self) -> f64 {
+        self.residual_in_round_off()
+    }
+
+    fn uncertainties(&mut self) -> f64 {
+        self.residual_in_uncertainty()
+    }
+
     fn kept_factor(&self) -> KeptFactor {
         self.worth_of_factor()
     }

@@ -11,7 +11,7 @@ use partita_numerics::newton::{self, Bound, Check};
 use partita_structure::{MaterialError, StructureError, StructureSolver};
 use thiserror::Error;
 
-pub(crate) use fluid::nearest_node;
+pub(crate) use fluid::{holders, nearest_node};
 pub(crate) use interface::transfer;
 pub(crate) use structure::{boundary, place_in, side, supports};
 

@@ -1,5 +1,7 @@
 //! What a scene is, in words and numbers, before it runs.
 
+mod inflow;
+
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -12,7 +14,8 @@ use partita_structure::{Space, StructureSolver};
 use crate::build::Run;
 use crate::memory;
 use crate::scene::schema::{Component, Condition, Coupling, Direction, Fluid, Part, Structure, plain};
-use crate::scene::{Resolved, words};
+use crate::scene::{Content, Resolved, Role, words};
+use inflow::Inflow;
 
 /// Describes a scene and the run that was built from it: title, meshes with their boundary groups, splines, interface,
 /// choices. The last line is `scene is sound`.
@@ -25,9 +28,12 @@ pub fn describe(resolved: &Resolved, run: &Run) -> String {
     page.line("time", format!("{steps} steps of {step} s, to t = {} s", short(steps as f64 * step.get())));
     if let (Some(scene), Some(fluid)) = (&scene.fluid, fluid) {
         page.fluid(scene, fluid);
+        inflow::all(&resolved.scene, fluid).iter().for_each(|inflow| page.inflow(inflow));
+        page.file(resolved.shapes.fluid_file.as_ref());
     }
     if let (Some(scene), Some(structure)) = (&scene.structure, structure) {
         page.structure(scene, structure);
+        page.file(resolved.shapes.structure_file.as_ref());
     }
     if let (Some(coupling), Some(fluid), Some(structure)) = (&scene.coupling, fluid, structure) {
         let (nodes, points) = (fluid.interface_nodes().len(), structure.interface_points().len());
@@ -83,6 +89,51 @@ impl Page {
         for group in mesh.groups() {
             let condition = conditions.get(&group.name).map_or_else(|| "none".to_owned(), words);
             self.line("", format!("{:<width$}  {:>4} edges  {condition}", group.name, group.facets.len()));
+        }
+    }
+
+    fn inflow(&mut self, inflow: &Inflow) {
+        let Inflow { group, time, discrete, exact } = inflow;
+        let (word, sign) = if *exact < 0.0 { ("outflow", -1.0) } else { ("inflow", 1.0) };
+        let [of_mesh, of_formula] = [discrete, exact].map(|flow| six(sign * flow));
+        let difference = 100.0 * (discrete / exact - 1.0);
+        let difference = if difference.is_finite() && difference.abs() >= 0.05 {
+            format!(" ({difference:+.1} %)")
+        } else {
+            String::new()
+        };
+        self.line(
+            "",
+            format!(
+                "{word} through {group} at t = {} s: {of_mesh} m2/s on this mesh{difference}, {of_formula} m2/s by its formula",
+                short(*time)
+            ),
+        );
+    }
+
+    /// What the file of a mesh holds, and what became of it.
+    fn file(&mut self, content: Option<&Content>) {
+        let Some(content) = content else { return };
+        let turned = if content.turned { ": all its cells ran clockwise and were turned round" } else { "" };
+        self.line("", format!("read from {}{turned}", content.file));
+        for (dimension, kind) in ["points", "curves", "surfaces", "volumes"].iter().enumerate().rev() {
+            let groups: Vec<String> = content
+                .groups
+                .iter()
+                .filter(|(group, _)| group.dimension == dimension)
+                .map(|(group, role)| {
+                    let role = match role {
+                        Role::Used => "",
+                        Role::Inside => ", inside",
+                        Role::LeftOut => ", left out",
+                        Role::Unused => ", not used",
+                    };
+                    format!("{} ({}{role})", group.name, group.elements)
+                })
+                .collect();
+            if !groups.is_empty() {
+                self.line("", format!("{kind} (and their elements): {}", groups.join(", ")));
+            }
         }
     }
 
@@ -180,6 +231,11 @@ fn extent(points: &[[f64; 2]]) -> String {
 fn box_of([left, right]: [f64; 2], [bottom, top]: [f64; 2]) -> String {
     let [left, right, bottom, top] = [left, right, bottom, top].map(short);
     format!("x from {left} to {right} m, y from {bottom} to {top} m")
+}
+
+/// Six digits of a measured number.
+fn six(number: f64) -> String {
+    plain(format!("{number:.5e}").parse().unwrap_or(number))
 }
 
 /// Nine digits: enough for a reader, without the noise of the last bits.

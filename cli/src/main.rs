@@ -43,7 +43,8 @@ fn run(arguments: &Run, clock: Clock) -> Result<ExitCode, Failure> {
     let options = options(&arguments.manner);
     let built = build::run_on(&resolved, options.threads())?;
     let warnings = warning::of(&resolved, &built);
-    if !arguments.manner.quiet {
+    // What is denied is shown even to those who asked for quiet.
+    if !arguments.manner.quiet || arguments.deny_warnings {
         warn(&warnings);
     }
     deny(&warnings, arguments.deny_warnings)?;

@@ -5,9 +5,10 @@
 
 mod added_mass;
 mod flow;
+mod formulas;
 mod kind;
 mod motion;
-pub(crate) mod scales;
+mod scales;
 mod structure;
 mod support;
 mod tolerances;
@@ -81,6 +82,7 @@ pub fn of(resolved: &Resolved, run: &Run) -> Vec<Warning> {
         support::corners(&mut found, fluid, of_fluid, of_structure);
     }
     in_time(&mut found, run);
+    formulas::check(&mut found);
     found.warnings
 }
 

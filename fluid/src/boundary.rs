@@ -42,6 +42,7 @@ pub(crate) struct Boundaries<const D: usize> {
     pub(crate) mesh_prescribed: Option<Vec<bool>>,
     /// Whether velocity is prescribed all round.
     pub(crate) is_closed: bool,
+    /// Nodes held in all directions, ascending.
     holds: Vec<(usize, Hold)>,
 }
 
@@ -52,7 +53,7 @@ impl<const D: usize> Boundaries<D> {
         model: &FluidModel<D>,
         settings: &FluidSettings,
     ) -> Result<Self, FluidError> {
-        let owners = owners(mesh, model);
+        let owners = holding_conditions(mesh, model);
         let mut boundaries = Self {
             prescribed: vec![false; mesh.points().len() * (D + 1)],
             interface: Vec::new(),
@@ -107,6 +108,24 @@ impl<const D: usize> Boundaries<D> {
         };
         self.holds.push((node, hold));
         self.prescribed[node * (D + 1)..node * (D + 1) + D].fill(true);
+    }
+
+    /// The velocity at which the conditions hold a node while no boundary moves; `None` where they leave a direction free.
+    pub(crate) fn held_at_rest(
+        &self,
+        model: &FluidModel<D>,
+        node: usize,
+        point: &[f64; D],
+        time: f64,
+    ) -> Option<[f64; D]> {
+        let at = self.holds.binary_search_by_key(&node, |&(held, _)| held).ok()?;
+        match self.holds[at].1 {
+            Hold::Wall | Hold::Still => Some([0.0; D]),
+            Hold::Field(owner) => match &model.boundary[owner].1 {
+                BoundaryCondition::Velocity(field) => Some(field(point, time)),
+                other => unreachable!("{other:?} holds no velocity field"),
+            },
+        }
     }
 
     /// Sets the prescribed entries of `values` at `time`, on the mesh with these `points` and velocities `w`.
@@ -179,12 +198,14 @@ pub(crate) fn evaluate<const D: usize>(
     }
 }
 
-/// For each node the condition that holds it: of the highest rank, among equals the first listed.
-fn owners<const D: usize>(mesh: &Mesh<D>, model: &FluidModel<D>) -> Vec<Option<usize>> {
+/// For each node the condition that holds it, by its place in the model's list: of the highest rank (see
+/// [`FluidModel::boundary`]), among equals the first listed. Groups that the mesh does not have are passed over.
+#[must_use]
+pub fn holding_conditions<const D: usize>(mesh: &Mesh<D>, model: &FluidModel<D>) -> Vec<Option<usize>> {
     let mut owners: Vec<Option<usize>> = vec![None; mesh.points().len()];
     let rank = |index: usize| model.boundary[index].1.rank();
     for (index, (group, _)) in model.boundary.iter().enumerate() {
-        for node in mesh.group_nodes(group).expect("a checked group") {
+        for node in mesh.group_nodes(group).unwrap_or_default() {
             if owners[node].is_none_or(|owner| rank(index) > rank(owner)) {
                 owners[node] = Some(index);
             }

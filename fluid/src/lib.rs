@@ -39,6 +39,7 @@ mod step;
 mod trial;
 mod worst;
 
+pub use boundary::holding_conditions;
 pub use error::FluidError;
 pub use model::{BodyForce, BoundaryCondition, FluidModel, InitialState, VectorField};
 pub use settings::{FluidSettings, PressurePin, Tangent, TimeScheme};

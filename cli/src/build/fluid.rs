@@ -1,8 +1,8 @@
 //! The scene's fluid in the words of the fluid crate.
 
-use partita_fluid::FluidSolver;
 use partita_fluid::model::{BodyForce, BoundaryCondition, FluidModel, InitialState};
 use partita_fluid::settings::{FluidSettings, PressurePin, Tangent, TimeScheme};
+use partita_fluid::{FluidSolver, holding_conditions};
 use partita_mesh::Mesh;
 use partita_mesh::motion::{MotionLaw, MotionMode, MotionSettings};
 use partita_numerics::time::BdfOrder;
@@ -103,6 +103,11 @@ fn motion(motion: &schema::MeshMotion) -> MotionSettings {
             schema::MotionMode::Incremental => MotionMode::Incremental,
         },
     }
+}
+
+/// For each node of `mesh` the condition that holds its velocity, by its place in the scene's order.
+pub(crate) fn holders(fluid: &schema::Fluid, mesh: &Mesh<2>, moves: bool) -> Vec<Option<usize>> {
+    holding_conditions(mesh, &model(fluid, moves))
 }
 
 /// The node of `mesh` closest to `point`; of several the one with the smallest number.

@@ -3,6 +3,7 @@
 //! All of it comes from the doc comments and types of [`schema`](super::schema), so messages cannot fall behind.
 
 mod page;
+mod placeholder;
 
 use std::sync::LazyLock;
 
@@ -12,6 +13,7 @@ use serde_json::Value;
 use super::schema::Scene;
 
 pub use page::markdown;
+pub(super) use placeholder::{Placeholder, placeholder};
 
 static SCENE: LazyLock<Value> = LazyLock::new(|| schema_for!(Scene).to_value());
 

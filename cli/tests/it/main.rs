@@ -17,4 +17,5 @@ mod stability;
 mod static_tank;
 mod study;
 mod tank;
+mod warnings;
 mod work;

@@ -2,6 +2,7 @@
 
 #![allow(clippy::float_cmp, reason = "prescribed and restored values arrive to the bit")]
 
+mod added_mass;
 mod allocation;
 mod balance;
 mod common;

@@ -6,6 +6,7 @@ mod clamped_beam;
 mod common;
 mod crushed;
 mod energy;
+mod first_mode;
 mod interface;
 mod invariance;
 mod lagrange;

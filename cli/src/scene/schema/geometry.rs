@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::file::FileName;
 use super::fluid::{one, origin};
+use super::groups::Groups;
 use super::numbers::{Count, Positive, Real};
 
 /// `[structure.geometry.*]`.
@@ -132,8 +133,12 @@ fn whole() -> [Count; 2] {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SolidMesh {
-    /// File of format 2.2 or 4.1, text or binary, relative to the scene's folder.
+    /// File of format 2.0 to 2.2 or 4.1, text or binary, relative to the scene's folder; it may be that of the fluid.
     pub file: FileName,
+    /// Names of the physical surfaces that are the structure, one or a list; must be given where the file has several.
+    /// Default: the whole mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surfaces: Option<Groups>,
     /// Factor on the file's coordinates: 0.001 for a mesh in millimetres. Default: 1.
     #[serde(default = "one")]
     pub scale: Positive,

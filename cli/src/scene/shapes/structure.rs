@@ -5,8 +5,9 @@ use std::path::Path;
 use partita_iga::{Spline, build, file, fit, orientation, seam};
 use partita_structure::{Patch, Space};
 
+use super::content::{self, Content};
 use super::read::{self, Input};
-use super::{PATCH_FILE, SOLID_FILE};
+use super::{PATCH_FILE, SOLID_FILE, Shapes};
 use crate::scene::finding::Finding;
 use crate::scene::schema::{
     Alignment, ArcPatch, Count, CurvePatch, Degree, Geometry, Positive, Real, RectanglePatch, SolidMesh,
@@ -18,19 +19,21 @@ use crate::scene::validate::Check;
 pub(super) fn space(
     geometry: &Geometry,
     folder: &Path,
-    inputs: &mut Vec<Input>,
+    shapes: &mut Shapes,
     check: &mut Check<'_>,
 ) -> Option<Space<2>> {
     let (made, place) = match geometry {
         Geometry::Rectangle(patch) => (rectangle(patch).and_then(sound), ["rectangle", ""]),
         Geometry::Arc(patch) => (arc(patch).and_then(sound), ["arc", ""]),
         Geometry::Curve(patch) => (strip(patch).and_then(sound), ["curve", ""]),
-        Geometry::Spline(spline) => (from_file(spline, folder, inputs).and_then(sound), ["spline", "file"]),
-        Geometry::Gmsh(mesh) => (solid(mesh, folder, inputs), ["gmsh", "file"]),
+        Geometry::Spline(spline) => {
+            (from_file(spline, folder, &mut shapes.inputs).and_then(sound), ["spline", "file"])
+        }
+        Geometry::Gmsh(mesh) => (solid(mesh, folder, shapes, check), ["gmsh", "file"]),
     };
     let place = ["structure", "geometry", place[0], place[1]];
     let shape = if matches!(geometry, Geometry::Gmsh(_)) { "this mesh" } else { "this patch" };
-    made.map_err(|finding| check.add(finding.mark_if(check.value(&place), shape))).ok()
+    made.map_err(|finding| check.add(finding.mark_unless(check.value(&place), shape))).ok()
 }
 
 fn sound(patch: Spline<2>) -> Result<Space<2>, Finding> {
@@ -42,10 +45,22 @@ fn sound(patch: Spline<2>) -> Result<Space<2>, Finding> {
     }
 }
 
-fn solid(mesh: &SolidMesh, folder: &Path, inputs: &mut Vec<Input>) -> Result<Space<2>, Finding> {
+fn solid(
+    mesh: &SolidMesh,
+    folder: &Path,
+    shapes: &mut Shapes,
+    check: &Check<'_>,
+) -> Result<Space<2>, Finding> {
     let (file, bytes) = read::gmsh(&mesh.file, mesh.scale, folder)?;
-    let made = file.into_solid_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
-    inputs.push(Input { name: SOLID_FILE, bytes });
+    let mut content = Content::new(&mesh.file, &file, mesh.surfaces.as_ref());
+    let table = ["structure", "geometry", "gmsh"];
+    let part = content::choose(file, mesh.surfaces.as_ref(), &mesh.file, check, table)?;
+    content.turned = part.is_inverted(2);
+    content.touching(&part);
+    let made = part.into_solid_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
+    content.bounds(made.groups().iter().map(|group| &*group.name));
+    shapes.structure_file = Some(content);
+    shapes.inputs.push(Input { name: SOLID_FILE, bytes });
     Ok(Space::Lagrange(made))
 }
 

@@ -8,6 +8,7 @@ use crate::build;
 use crate::scene::finding::Finding;
 use crate::scene::free::{HOLD, MOST_PIECES, in_words};
 use crate::scene::schema::{Probe, Real, Scene, Structure, StructureTimeScheme};
+use crate::scene::shapes::Content;
 
 /// Sides that a seam joins are inside of the structure.
 fn joined(check: &mut Check<'_>, of_scene: &Structure, patch: &Patch<2>) {
@@ -41,12 +42,30 @@ fn unheld(check: &mut Check<'_>, of_scene: &Structure, space: &Space<2>) {
     }
 }
 
+/// A coupled mesh that names no group that the fluid touches.
+fn not_wetted(check: &mut Check<'_>, names: &[&str]) {
+    check.add(
+        Finding::new("no group of the structure touches the fluid")
+            .mark_if(check.key(&["structure"]), "`wetted` is missing or empty")
+            .hint(format!("name those that do in `wetted`; groups of the mesh: {}", names.join(", "))),
+    );
+}
+
 /// The structure's space against what the scene says about it.
-pub(super) fn check(check: &mut Check<'_>, scene: &Scene, of_scene: &Structure, space: &Space<2>) {
+pub(super) fn check(
+    check: &mut Check<'_>,
+    scene: &Scene,
+    of_scene: &Structure,
+    space: &Space<2>,
+    file: Option<&Content>,
+) {
     match space {
         Space::Lagrange(mesh) => {
             let names: Vec<&str> = mesh.groups().iter().map(|group| group.name.as_str()).collect();
-            structure::known_parts(check, of_scene, "mesh", &names);
+            structure::known_parts(check, of_scene, "mesh", &names, file);
+            if scene.fluid.is_some() && of_scene.wetted.is_empty() {
+                not_wetted(check, &names);
+            }
         }
         Space::Patch(patch) => joined(check, of_scene, patch),
     }

@@ -8,6 +8,7 @@ use super::Check;
 use crate::nearest::nearest;
 use crate::scene::finding::Finding;
 use crate::scene::schema::{Geometry, Part, Structure, StructureTimeScheme};
+use crate::scene::shapes::Content;
 
 /// Control points of a patch; more would not fit any machine the program is written for.
 const MOST_POINTS: f64 = 1e8;
@@ -15,7 +16,7 @@ const MOST_POINTS: f64 = 1e8;
 pub(super) fn check(check: &mut Check<'_>, structure: &Structure, coupled: bool) {
     size(check, structure);
     if let Some(sides) = structure.geometry.sides() {
-        known_parts(check, structure, "patch", &sides);
+        known_parts(check, structure, "patch", &sides, None);
     }
     held(check, structure);
     twice(check, "clamped", &structure.clamped);
@@ -36,7 +37,8 @@ pub(super) fn check(check: &mut Check<'_>, structure: &Structure, coupled: bool)
         );
     }
     match structure.wetted.first() {
-        None if coupled => check.add(
+        // The groups of a mesh are named when its file was read.
+        None if coupled && !matches!(structure.geometry, Geometry::Gmsh(_)) => check.add(
             Finding::new("no side of the structure touches the fluid")
                 .mark_if(check.key(&["structure"]), "`wetted` is missing or empty")
                 .hint("name the sides that touch the fluid: `wetted = [\"top\"]`"),
@@ -117,17 +119,24 @@ fn held(check: &mut Check<'_>, structure: &Structure) {
     }
 }
 
-/// Clamped and wetted parts against the names that the boundary has.
-pub(super) fn known_parts(check: &mut Check<'_>, structure: &Structure, what: &str, names: &[&str]) {
+/// The parts that a structure names against those of its boundary, and the file that it was read from.
+pub(super) fn known_parts(
+    check: &mut Check<'_>,
+    structure: &Structure,
+    what: &str,
+    names: &[&str],
+    file: Option<&Content>,
+) {
     for (place, part) in named_parts(check, structure).into_iter().filter(|(_, part)| !names.contains(part)) {
-        check.add(
-            Finding::new(format!("the {what} of the structure has no part `{part}`"))
-                .mark_if(place, "unknown part")
-                .hint(match nearest(part, names.iter().copied()) {
+        let finding = file.and_then(|file| file.elsewhere(part, names)).unwrap_or_else(|| {
+            Finding::new(format!("the {what} of the structure has no part `{part}`")).hint(
+                match nearest(part, names.iter().copied()) {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => format!("parts of its boundary: {}", names.join(", ")),
-                }),
-        );
+                },
+            )
+        });
+        check.add(finding.mark_if(place, "unknown part"));
     }
 }
 

@@ -42,6 +42,7 @@ pub(crate) struct Boundaries<const D: usize> {
     pub(crate) mesh_prescribed: Option<Vec<bool>>,
     /// Whether velocity is prescribed all round.
     pub(crate) is_closed: bool,
+    /// Nodes held in all directions, ascending.
     holds: Vec<(usize, Hold)>,
 }
 
@@ -107,6 +108,24 @@ impl<const D: usize> Boundaries<D> {
         };
         self.holds.push((node, hold));
         self.prescribed[node * (D + 1)..node * (D + 1) + D].fill(true);
+    }
+
+    /// The velocity at which the conditions hold a node while no boundary moves; `None` where they leave a direction free.
+    pub(crate) fn held_at_rest(
+        &self,
+        model: &FluidModel<D>,
+        node: usize,
+        point: &[f64; D],
+        time: f64,
+    ) -> Option<[f64; D]> {
+        let at = self.holds.binary_search_by_key(&node, |&(held, _)| held).ok()?;
+        match self.holds[at].1 {
+            Hold::Wall | Hold::Still => Some([0.0; D]),
+            Hold::Field(owner) => match &model.boundary[owner].1 {
+                BoundaryCondition::Velocity(field) => Some(field(point, time)),
+                other => unreachable!("{other:?} holds no velocity field"),
+            },
+        }
     }
 
     /// Sets the prescribed entries of `values` at `time`, on the mesh with these `points` and velocities `w`.

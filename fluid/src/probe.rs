@@ -55,6 +55,29 @@ impl<const D: usize> FluidSolver<D> {
         Some(facets.iter().map(through).sum())
     }
 
+    /// Fluid that the conditions let out at `time` through the boundary group of that name, on the mesh before it moves
+    /// `[m^2/s in 2D, m^3/s in 3D]`; `None` for a name that is no group, or where a condition leaves the velocity free:
+    ///
+    /// ```text
+    /// sum over its facets of (u_h, n)
+    /// ```
+    ///
+    /// with the prescribed velocities u_h at the nodes, linear between them. A node that a neighbouring group holds has
+    /// the value of that group: next to a no-slip wall a uniform inflow loses the flow of half an edge.
+    #[must_use]
+    pub fn prescribed_flow_rate(&self, group: &str, time: f64) -> Option<f64> {
+        let points = self.mesh.points();
+        let mut sum = 0.0;
+        for facet in &self.mesh.group(group)?.facets {
+            let area_vector = facet.area_vector(points);
+            for &node in &facet.nodes {
+                let velocity = self.boundaries.held_at_rest(&self.model, node, &points[node], time)?;
+                sum += dot(&area_vector, &velocity) / D as f64;
+            }
+        }
+        Some(sum)
+    }
+
     /// What the step in progress, or after [`commit`](Self::commit) the accepted one, loses of the balance of volume
     /// `[m^2/s in 2D, m^3/s in 3D]`:
     ///

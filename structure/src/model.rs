@@ -8,6 +8,7 @@ use crate::error::StructureError;
 use crate::load::BodyForce;
 use crate::material::{Material, Plane};
 use crate::step::TimeScheme;
+use crate::support::Held;
 
 /// Properties, loads and supports of a structure.
 #[derive(Debug, Clone)]
@@ -20,6 +21,8 @@ pub struct StructureModel<const D: usize> {
     pub body_force: BodyForce<D>,
     /// Parts of the boundary whose nodes do not move: sides of a patch, groups of a mesh.
     pub clamped: Boundary,
+    /// Parts of the boundary whose nodes move in some directions only.
+    pub held: Vec<Held<D>>,
     /// Parts of the boundary that form the interface.
     pub wetted: Boundary,
 }

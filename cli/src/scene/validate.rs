@@ -48,10 +48,10 @@ fn warnings(check: &mut Check<'_>, scene: &Scene) {
 /// What does not fit the shapes, or does not fit between them.
 pub(super) fn validate_shapes(check: &mut Check<'_>, scene: &Scene, shapes: &Shapes) {
     if let (Some(fluid), Some(mesh)) = (&scene.fluid, &shapes.fluid) {
-        mesh::check(check, scene, fluid, mesh);
+        mesh::check(check, scene, fluid, mesh, shapes.fluid_file.as_ref());
     }
     if let (Some(structure), Some(space)) = (&scene.structure, &shapes.structure) {
-        solid::check(check, scene, structure, space);
+        solid::check(check, scene, structure, space, shapes.structure_file.as_ref());
     }
     interface::check(check, scene, shapes);
     if check.is_sound() {

@@ -14,6 +14,8 @@ mod newton_loop;
 mod patch_test;
 mod refusals;
 mod restart;
+mod rigid;
+mod supports;
 mod tangent;
 mod turek_hron;
 mod vibration;

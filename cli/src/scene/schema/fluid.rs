@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::file::FileName;
 use super::formula::VectorFormula;
+use super::groups::Groups;
 use super::newton::Newton;
 use super::numbers::{Count, NonNegative, PoissonRatio, Positive, Real};
 
@@ -44,6 +45,14 @@ pub struct Fluid {
     /// Where the fluid is.
     pub mesh: FluidMesh,
     /// One condition for every boundary group of the mesh.
+    ///
+    /// At a node between two groups one condition holds: `interface` before `wall_motion`, then `no_slip`, `velocity`,
+    /// `slip`; of two alike that of the group whose name comes first in the alphabet. So a uniform inflow loses the flow
+    /// of half an edge at each no-slip wall beside it (`check` prints by how much), while a profile that is zero at the
+    /// walls loses nothing. `traction`, `do_nothing` and `stress_free` act on the edges of their group, up to its last
+    /// nodes, where the velocity is that of the neighbour.
+    #[serde(default)]
+    #[schemars(required)]
     pub boundary: BTreeMap<String, Condition>,
     /// State at t = 0: `"rest"` (default) or `{ velocity = [..] }`.
     #[serde(default)]
@@ -118,8 +127,12 @@ pub enum FluidMesh {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GmshMesh {
-    /// File of format 2.2 or 4.1, text or binary, relative to the scene's folder.
+    /// File of format 2.0 to 2.2 or 4.1, text or binary, relative to the scene's folder.
     pub file: FileName,
+    /// Names of the physical surfaces that the fluid fills, one or a list; must be given where the file has several. Curves
+    /// between them and the rest of the file are boundary groups, those elsewhere are left out. Default: the whole mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surfaces: Option<Groups>,
     /// Factor on the file's coordinates: 0.001 for a mesh in millimetres. Default: 1.
     #[serde(default = "one")]
     pub scale: Positive,

@@ -1,5 +1,6 @@
 //! `[structure]`: what deforms, and how it is solved.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use partita_numerics::time::GeneralizedAlpha;
@@ -24,6 +25,11 @@ pub struct Structure {
     /// Sides of the patch, or groups of the mesh, that do not move. Default: none.
     #[serde(default)]
     pub clamped: Vec<Part>,
+    /// Components of the displacement, `"x"` and `"y"`, that stay zero on a side of the patch or a group of the mesh:
+    /// `held = { right = ["x"] }` is a roller on a wall at x = const, or a plane of symmetry; its points move along the
+    /// wall and never off it. Default: none.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub held: BTreeMap<String, Vec<Component>>,
     /// Sides of the patch, or groups of the mesh, that touch the fluid. Default: none.
     #[serde(default)]
     pub wetted: Vec<Part>,
@@ -46,10 +52,41 @@ pub struct Structure {
 }
 
 /// A part of the structure's boundary: a side of a patch (`left`, `right`, `bottom`, `top`: the start and the end of its
-/// first and of its second parameter), or a group of a mesh.
+/// first and of its second parameter), or a group of a mesh. Sides of a patch that lie on each other, as those of a full ring,
+/// are joined and no part of the boundary.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct Part(String);
+
+/// A component of a vector.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Component {
+    /// Along the x axis.
+    X,
+    /// Along the y axis.
+    Y,
+}
+
+impl Component {
+    /// 0 for x.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        match self {
+            Self::X => 0,
+            Self::Y => 1,
+        }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+        }
+    }
+}
 
 impl Part {
     /// The name.

@@ -1,19 +1,33 @@
 //! What a scene is, in words and numbers, before it runs.
 
+mod balance;
 mod inflow;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use partita_fluid::FluidSolver;
+use partita_iga::Side;
+use partita_iga::seam::Seams;
 use partita_mesh::{Mesh, Place, quality, simplex};
 use partita_structure::{Space, StructureSolver};
 
-use crate::build::Run;
+use crate::build::{BuildError, Run};
 use crate::memory;
-use crate::scene::schema::{Condition, Coupling, Direction, Fluid, Part, Structure, plain};
+use crate::scene::schema::{Component, Condition, Coupling, Direction, Fluid, Part, Structure, plain};
 use crate::scene::{Content, Resolved, Role, words};
 use inflow::Inflow;
+
+/// Looks ahead to what a run would stop at in a later step: an enclosed fluid that does not keep its volume.
+///
+/// # Errors
+/// What the run would stop at, with its time.
+pub fn look_ahead(resolved: &Resolved, run: &Run) -> Result<(), BuildError> {
+    match run.first().field() {
+        Some(fluid) => Ok(balance::check(fluid, &resolved.scene.time)?),
+        None => Ok(()),
+    }
+}
 
 /// Describes a scene and the run that was built from it: title, meshes with their boundary groups, splines, interface,
 /// choices. The last line is `scene is sound`.
@@ -145,6 +159,14 @@ impl Page {
         self.line("", format!("body force {} N/m3 (per volume)", words(&scene.body_force)));
         self.line("", words(&scene.time_scheme));
         self.line("", format!("clamped: {}; wetted: {}", names(&scene.clamped), names(&scene.wetted)));
+        if !scene.held.is_empty() {
+            self.line("", format!("held: {}", held(scene)));
+        }
+        if let Space::Patch(patch) = structure.space()
+            && let Some(joined) = joined(patch.seams())
+        {
+            self.line("", joined);
+        }
     }
 
     fn coupling(&mut self, coupling: &Coupling) {
@@ -169,10 +191,10 @@ fn centroid(mesh: &Mesh<2>, cell: usize) -> [f64; 2] {
 /// What a structure is made of.
 fn elements_of(space: &Space<2>) -> String {
     match space {
-        Space::Patch(spline) => {
-            let [along, across] = [0, 1].map(|direction| spline.knots()[direction].element_count());
+        Space::Patch(patch) => {
+            let [along, across] = [0, 1].map(|direction| patch.spline().knots()[direction].element_count());
             let [degree, other] = degrees(space);
-            let points = spline.control_points().len();
+            let points = patch.points().len();
             format!("{along} x {across} elements of degree {degree} x {other}, {points} control points")
         }
         Space::Lagrange(mesh) => {
@@ -184,7 +206,7 @@ fn elements_of(space: &Space<2>) -> String {
 
 fn degrees(space: &Space<2>) -> [usize; 2] {
     match space {
-        Space::Patch(spline) => [0, 1].map(|direction| spline.knots()[direction].degree()),
+        Space::Patch(patch) => [0, 1].map(|direction| patch.spline().knots()[direction].degree()),
         // About as many functions meet at a node as for a spline of degree one.
         Space::Lagrange(_) => [1; 2],
     }
@@ -195,6 +217,20 @@ fn names(sides: &[Part]) -> String {
         return "none".to_owned();
     }
     sides.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+fn held(scene: &Structure) -> String {
+    let of_part = |(part, components): (&String, &Vec<Component>)| {
+        format!("{part} in {}", components.iter().map(|c| c.name()).collect::<Vec<_>>().join(" and "))
+    };
+    scene.held.iter().map(of_part).collect::<Vec<_>>().join(", ")
+}
+
+/// Which sides of a patch are no sides of its boundary.
+fn joined(seams: &Seams) -> Option<String> {
+    let pairs = [(Side::LEFT, Side::RIGHT), (Side::BOTTOM, Side::TOP)];
+    let (side, partner) = pairs.into_iter().find(|(side, _)| seams.partner(*side).is_some())?;
+    Some(format!("closed: {side} and {partner} are joined"))
 }
 
 fn extent(points: &[[f64; 2]]) -> String {

@@ -2,6 +2,7 @@
 
 use partita_iga::Spline;
 use partita_numerics::newton::{self, FactorLog, Failure, Limit, Report, Verdict};
+use partita_numerics::norms::extent;
 use partita_numerics::{DofMap, Pattern, PhaseSeconds};
 
 use crate::assembly::{Assembly, Forces, Local, Motion};
@@ -21,7 +22,7 @@ use crate::step::{Scheme, Step};
 /// R = M a_{n+1-alpha_m} + C v_{n+1-alpha_f} + f_int(d_{n+1-alpha_f}) - f_ext_{n+1-alpha_f}
 /// ```
 ///
-/// is kept on all dofs, those of clamped control points included: there it holds the reactions. A step starts from
+/// is kept on all dofs, those of supports included: there it holds the reactions. A step starts from
 /// `d_n`. The caller composes it from [`begin_step`](Self::begin_step), [`impose`](Self::impose),
 /// [`newton::solve`] and [`commit`](Self::commit) or [`rewind`](Self::rewind); a structure alone takes
 /// [`advance`](Self::advance).
@@ -37,10 +38,11 @@ use crate::step::{Scheme, Step};
 ///     material: Material::new(Law::StVenantKirchhoff, 1e7, 0.3, Plane::Strain)?,
 ///     body_force: BodyForce::Constant([0.0, -9.81e3]),
 ///     clamped: Side::LEFT.into(),
+///     held: Vec::new(),
 ///     wetted: Boundary::NONE,
 /// };
 /// let settings = StructureSettings { time: TimeScheme::QuasiStatic, ..Default::default() };
-/// let mut cantilever = StructureSolver::new(Space::Patch(patch), model, settings)?;
+/// let mut cantilever = StructureSolver::new(patch.into(), model, settings)?;
 /// let report = cantilever.advance(1.0, 1.0)?;
 /// assert!(report.converged);
 ///
@@ -62,6 +64,8 @@ pub struct StructureSolver<const D: usize> {
     pub(crate) committed: StructureState,
     pub(crate) trial: StructureState,
     step: Option<Step>,
+    /// Part of the interface data: no state.
+    pub(crate) load_resolution: f64,
     pub(crate) work: Work<D>,
     pub(crate) phases: PhaseSeconds,
 }
@@ -96,12 +100,12 @@ impl<const D: usize> StructureSolver<D> {
         model.check()?;
         settings.check()?;
         let scheme = settings.time.coefficients()?;
-        let clamped = space.nodes_of(&model.clamped)?;
+        let held = space.held_dofs(&model.clamped, &model.held)?;
         let mut interface_points = space.nodes_of(&model.wetted)?;
-        interface_points.retain(|point| clamped.binary_search(point).is_err());
+        interface_points.retain(|point| !held[point * D..][..D].iter().all(|held| *held));
         let elements = space.elements()?;
 
-        let dofs = DofMap::new(&prescribed_dofs::<D>(space.node_count(), &clamped));
+        let dofs = DofMap::new(&held);
         if dofs.free_count() == 0 {
             return Err(StructureError::NothingFree);
         }
@@ -126,6 +130,7 @@ impl<const D: usize> StructureSolver<D> {
             committed: state.clone(),
             trial: state,
             step: None,
+            load_resolution: 0.0,
             phases: PhaseSeconds::default(),
             space,
             model,
@@ -136,7 +141,8 @@ impl<const D: usize> StructureSolver<D> {
         })
     }
 
-    /// Nodes (control points of a patch) on the wetted parts that can move, ascending, those at corners once.
+    /// Nodes on the wetted parts that can move in a direction at least, ascending, those at corners once. A component
+    /// that is held stays zero.
     #[must_use]
     pub fn interface_points(&self) -> &[usize] {
         self.loads.interface_points()
@@ -235,8 +241,8 @@ impl<const D: usize> StructureSolver<D> {
         Ok(())
     }
 
-    /// Moves the trial state to another displacement before a Newton iteration: a guess from a predictor, say. Clamped
-    /// control points stay where they are.
+    /// Moves the trial state to another displacement before a Newton iteration: a guess from a predictor, say. What is
+    /// held stays where it is.
     ///
     /// # Panics
     /// When `displacement` does not have one value a dof.
@@ -260,7 +266,20 @@ impl<const D: usize> StructureSolver<D> {
         &self.parts
     }
 
-    /// The residual R `[N, in 2D N/m]` of the last assembly on all dofs; in clamped rows it holds the reactions.
+    /// Displacements `[m]` whose difference has a smaller norm than this are the same shape: they differ by less than the
+    /// last bit of the coordinates.
+    #[must_use]
+    pub fn resolution(&self) -> f64 {
+        f64::EPSILON * extent(self.space.points())
+    }
+
+    /// Tells the norm `[N, in 2D N/m]` below which the interface force of the next calls is round-off of what it was made from.
+    /// A residual below that leaves nothing to do.
+    pub fn set_load_resolution(&mut self, resolution: f64) {
+        self.load_resolution = resolution;
+    }
+
+    /// The residual R `[N, in 2D N/m]` of the last assembly on all dofs; in the rows of supports it holds the reactions.
     #[must_use]
     pub fn residual(&self) -> &[f64] {
         &self.work.residual
@@ -309,9 +328,19 @@ impl<const D: usize> StructureSolver<D> {
     #[must_use]
     pub fn spline(&self) -> &Spline<D> {
         match &self.space {
-            Space::Patch(spline) => spline,
+            Space::Patch(patch) => patch.spline(),
             Space::Lagrange(_) => panic!("the structure lives on a mesh, not on a patch"),
         }
+    }
+
+    /// Whether a support keeps this component of a node at zero.
+    ///
+    /// # Panics
+    /// When there is no such node or component.
+    #[must_use]
+    pub fn is_held(&self, node: usize, component: usize) -> bool {
+        assert!(component < D, "there is no component {component} in {D} dimensions");
+        !self.assembly.dofs().is_free(node * D + component)
     }
 
     /// Properties, loads and supports.
@@ -405,12 +434,4 @@ impl<const D: usize> Work<D> {
 /// A solution that is none, found in the last iteration.
 fn folded(report: &Report, source: StructureError) -> Failure<StructureError> {
     Failure::Problem { iteration: report.iterations, source }
-}
-
-fn prescribed_dofs<const D: usize>(nodes: usize, clamped: &[usize]) -> Vec<bool> {
-    let mut prescribed = vec![false; nodes * D];
-    for &node in clamped {
-        prescribed[node * D..][..D].fill(true);
-    }
-    prescribed
 }

@@ -7,6 +7,7 @@ mod diagnose;
 mod document;
 mod finding;
 pub(crate) mod formulas;
+pub(crate) mod free;
 mod overrides;
 mod places;
 pub mod reference;

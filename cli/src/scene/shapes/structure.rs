@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use partita_iga::{Spline, build, file, fit, orientation};
-use partita_structure::Space;
+use partita_iga::{Spline, build, file, fit, orientation, seam};
+use partita_structure::{Patch, Space};
 
 use super::content::{self, Content};
 use super::read::{self, Input};
@@ -37,9 +37,11 @@ pub(super) fn space(
 }
 
 fn sound(patch: Spline<2>) -> Result<Space<2>, Finding> {
-    match orientation::check(&patch) {
-        Ok(_) => Ok(Space::Patch(patch)),
-        Err(error) => Err(Finding::of(&error)),
+    orientation::check(&patch).map_err(|error| Finding::of(&error))?;
+    let patch = Patch::from(patch);
+    match seam::contact(patch.spline(), patch.seams()) {
+        None => Ok(Space::Patch(patch)),
+        Some(contact) => Err(Finding::new(contact.to_string()).hint(contact.remedy())),
     }
 }
 
@@ -72,7 +74,15 @@ fn rectangle(patch: &RectanglePatch) -> Result<Spline<2>, Finding> {
     made.map_err(|error| Finding::of(&error))
 }
 
+/// Degrees.
+const FULL_TURN: f64 = 360.0;
+
 fn arc(patch: &ArcPatch) -> Result<Spline<2>, Finding> {
+    let sweep = patch.sweep.get();
+    if sweep.abs() > FULL_TURN {
+        return Err(Finding::new(format!("an arc that sweeps {sweep} degrees would lie on itself"))
+            .hint("the sweep is at most 360 degrees, where both ends are joined to a ring"));
+    }
     let made = build::annular_sector(
         patch.center.map(Real::get),
         patch.radii.map(Positive::get),
@@ -84,20 +94,38 @@ fn arc(patch: &ArcPatch) -> Result<Spline<2>, Finding> {
     made.map_err(|error| Finding::of(&error))
 }
 
+/// Ends of a curve closer than this share of its size are one point.
+const TOUCH: f64 = 1e-9;
+
+fn is_closed(points: &[[f64; 2]]) -> bool {
+    let [Some(first), Some(last)] = [points.first(), points.last()] else { return false };
+    let distance = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    let size = points.iter().map(|point| distance(first, point)).fold(0.0, f64::max);
+    points.len() > 2 && distance(first, last) <= TOUCH * size
+}
+
 /// A curve of one degree more than the strip leaves the strip as smooth as its degree allows.
 fn strip(patch: &CurvePatch) -> Result<Spline<2>, Finding> {
     let points: Vec<[f64; 2]> = patch.points.iter().map(|point| point.map(Real::get)).collect();
     let degree = patch.degree.map(Degree::get);
-    let along = if points.len() > degree[0] + 1 { degree[0] + 1 } else { degree[0] };
-    let (curve, _) = fit::through(&points, along).map_err(|error| Finding::of(&error))?;
-    let alignment = match patch.alignment {
-        Alignment::Bottom => build::Alignment::Bottom,
-        Alignment::Middle => build::Alignment::Middle,
-        Alignment::Top => build::Alignment::Top,
-    };
+    let closed = is_closed(&points);
+    let distinct = points.len() - usize::from(closed);
+    let along = if distinct > degree[0] + 1 { degree[0] + 1 } else { degree[0] };
+    let fitted = if closed { fit::closed(&points, along) } else { fit::through(&points, along) };
+    let (curve, _) = fitted.map_err(|error| Finding::of(&error))?;
     let elements = patch.elements.map(Count::get);
-    build::strip(&curve, patch.thickness.get(), alignment, degree, elements)
+    build::strip(&curve, patch.thickness.get(), patch.alignment.into(), degree, elements)
         .map_err(|error| Finding::of(&error))
+}
+
+impl From<Alignment> for build::Alignment {
+    fn from(alignment: Alignment) -> Self {
+        match alignment {
+            Alignment::Bottom => Self::Bottom,
+            Alignment::Middle => Self::Middle,
+            Alignment::Top => Self::Top,
+        }
+    }
 }
 
 fn from_file(spline: &SplineFile, folder: &Path, inputs: &mut Vec<Input>) -> Result<Spline<2>, Finding> {
@@ -111,6 +139,9 @@ fn from_file(spline: &SplineFile, folder: &Path, inputs: &mut Vec<Input>) -> Res
         return Err(Finding::new(format!("{} holds a curve, not a patch", spline.file))
             .hint("a plane structure is a spline of two parameters: give two degrees and two knot vectors"));
     }
+    let patch = patch.on_unit_parameters().map_err(|(parameter, error)| {
+        Finding::of(&format!("{}, knots[{parameter}]: {error}", spline.file))
+    })?;
     let patch = refined(patch, spline)?;
     inputs.push(Input { name: PATCH_FILE, bytes });
     Ok(patch)

@@ -68,7 +68,9 @@ impl Seams {
             let first = &patch.control_points()[on_side[0]];
             if on_side.iter().all(|&a| distance(first, &patch.control_points()[a]) <= touch) {
                 points.push(side);
-                on_side.iter().for_each(|&a| unite(&mut leaders, on_side[0], a));
+                for &a in &on_side {
+                    unite(&mut leaders, on_side[0], a);
+                }
             }
         }
         let (nodes, first_of_node) = number(&mut leaders);
@@ -140,7 +142,7 @@ fn length<const D: usize>(patch: &Spline<D>, parameter: usize) -> f64 {
     let shape = patch.shape();
     let stride: usize = shape[..parameter].iter().product();
     let points = patch.control_points();
-    let starts = (0..points.len()).filter(|a| a / stride % shape[parameter] == 0);
+    let starts = (0..points.len()).filter(|a| (a / stride).is_multiple_of(shape[parameter]));
     let along = |start: usize| {
         let line = (0..shape[parameter] - 1).map(|i| start + i * stride);
         line.map(|a| distance(&points[a], &points[a + stride])).sum::<f64>()

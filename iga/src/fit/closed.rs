@@ -19,6 +19,9 @@ const AT_END: f64 = 1e-9;
 /// When there are not more points than the degree even without the last one, two neighbours coincide, a coordinate is
 /// not finite, or the degree is zero.
 ///
+/// # Panics
+/// Never: the knots give every basis function an element to live on.
+///
 /// ```
 /// use partita_iga::fit;
 ///
@@ -44,7 +47,8 @@ pub fn closed<const D: usize>(points: &[[f64; D]], degree: usize) -> Result<(Spl
     let mut clamped: Vec<[f64; D]> = basis.clamped(&knots, &control_points);
     // Both ends are the first point up to round-off; without it, they are one place.
     clamped[0] = points[0];
-    *clamped.last_mut().expect("a curve has control points") = points[0];
+    let last = clamped.len() - 1;
+    clamped[last] = points[0];
     Ok((Spline::new(vec![knots], clamped)?, parameters))
 }
 
@@ -54,24 +58,27 @@ struct Periodic<'a> {
     degree: usize,
 }
 
+/// Turns before the first parameter, so that indices need no sign.
+const TURNS_BEFORE: usize = 2;
+
 impl Periodic<'_> {
-    fn count(&self) -> i64 {
-        self.parameters.len() as i64
+    fn count(&self) -> usize {
+        self.parameters.len()
     }
 
-    fn parameter(&self, index: i64) -> f64 {
-        let turns = index.div_euclid(self.count());
-        self.parameters[index.rem_euclid(self.count()) as usize] + turns as f64
+    /// `t_i`, where index `TURNS_BEFORE count` is that of `t_0 = 0`.
+    fn parameter(&self, index: usize) -> f64 {
+        let turns = (index / self.count()) as f64 - TURNS_BEFORE as f64;
+        self.parameters[index % self.count()] + turns
     }
 
-    fn knot(&self, index: i64) -> f64 {
-        let degree = self.degree as i64;
-        (index..index + degree).map(|i| self.parameter(i)).sum::<f64>() / degree as f64
+    fn knot(&self, index: usize) -> f64 {
+        (index..index + self.degree).map(|i| self.parameter(i)).sum::<f64>() / self.degree as f64
     }
 
-    /// The span with `knot(span) <= xi < knot(span + 1)`.
-    fn span(&self, xi: f64) -> i64 {
-        let mut span = -(self.degree as i64) - self.count();
+    /// The span with `knot(span) <= xi < knot(span + 1)`, for `xi` from 0 to 1.
+    fn span(&self, xi: f64) -> usize {
+        let mut span = self.degree;
         while self.knot(span + 1) <= xi {
             span += 1;
         }
@@ -79,16 +86,15 @@ impl Periodic<'_> {
     }
 
     /// Blossoms of the basis functions `span - degree ..= span`, whose polynomials are those of `span`.
-    fn blossom(&self, span: i64, arguments: &[f64]) -> Vec<f64> {
-        let degree = self.degree as i64;
-        let knots: Vec<f64> = (span + 1 - degree..=span + degree).map(|i| self.knot(i)).collect();
+    fn blossom(&self, span: usize, arguments: &[f64]) -> Vec<f64> {
+        let knots: Vec<f64> = (span + 1 - self.degree..=span + self.degree).map(|i| self.knot(i)).collect();
         let mut values = vec![0.0; self.degree + 1];
         bspline::blossom_on(&knots, self.degree - 1, arguments, &mut values);
         values
     }
 
-    fn control_point(&self, span: i64, a: usize) -> usize {
-        (span - self.degree as i64 + a as i64).rem_euclid(self.count()) as usize
+    fn control_point(&self, span: usize, a: usize) -> usize {
+        (span - self.degree + a) % self.count()
     }
 
     /// `N_a(t_i)`, one row a point.
@@ -107,9 +113,9 @@ impl Periodic<'_> {
     /// The knots between 0 and 1, and both ends as often as a clamped vector has them.
     fn clamped_knots(&self) -> Result<Knots, KnotError> {
         let inside = |knot: &f64| *knot > AT_END && *knot < 1.0 - AT_END;
-        let range = -(self.degree as i64)..2 * self.count();
         let end = |knot| std::iter::repeat_n(knot, self.degree + 1);
-        let inner = range.map(|i| self.knot(i)).filter(inside);
+        let turns = TURNS_BEFORE + 2;
+        let inner = (0..turns * self.count()).map(|i| self.knot(i)).filter(inside);
         Knots::new(self.degree, end(0.0).chain(inner).chain(end(1.0)).collect())
     }
 

@@ -70,7 +70,7 @@ fn a_structure_that_reaches_into_the_fluid_is_refused() {
     let text = text.replace("[\"bottom\"]", "[\"skin\"]").replace("[\"left\", \"right\"]", "[\"foot\"]");
     let text = text.replace("structure_displacement", "structure_point");
     std::fs::write(case.path("plates.toml"), text).expect("the scene is written");
-    let mut with_second = |place| {
+    let with_second = |place| {
         std::fs::write(case.path("plates.msh"), plates(place)).expect("the mesh is written");
         &case
     };

@@ -13,6 +13,7 @@ mod benchmark;
 mod beyond;
 mod ci;
 mod csv;
+mod damping;
 mod effects;
 #[cfg(test)]
 mod figures;
@@ -55,6 +56,9 @@ Tasks:
     --mode MODE          write (default), or check: measure nothing, fail where the page differs from the data
   effects                run the beam in channel flow with effects switched on one by one, and without each of them
     --mode MODE          check (default): counts and errors as in docs/data/effects.csv, or write that and docs/effects.md
+  damping                run a few scenes at several spectral radii of the structure's time scheme
+    --mode MODE          check (default): oscillations and errors as in docs/data/damping.csv, write: keep them and write
+                         docs/damping.md, or page: write that alone
   accuracy [STUDY]...    run the studies of accuracy against time (studies/), or some of them
     --mode MODE          check (default): errors as in docs/data/accuracy.csv, or write that, docs/accuracy.md and its
                          pictures, or page: run nothing, write page and pictures from the data
@@ -89,6 +93,7 @@ fn dispatch(arguments: &[&str]) -> Result<(), TaskError> {
         ["benchmark", options @ ..] => benchmark::run(root, options),
         ["performance", options @ ..] => performance::run(root, options),
         ["effects", options @ ..] => effects::run(root, options),
+        ["damping", options @ ..] => damping::run(root, options),
         ["accuracy", options @ ..] => accuracy::run(root, options),
         ["stability", options @ ..] => stability::run(root, options),
         ["infer", options @ ..] => infer::run(root, &Options::parse("infer", options)?),

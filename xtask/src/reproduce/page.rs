@@ -137,6 +137,7 @@ mod tests {
         let page = perfect();
         let files = page.files();
         let text = &files[0].1;
+        assert!(files.len() > 1, "the page has figures");
         for (path, _) in &files[1..] {
             let link = path.strip_prefix("docs/").expect("figures stand beside the page");
             assert!(text.contains(&format!("({link})")), "{link}");

@@ -35,7 +35,7 @@ pub struct Coupling {
     /// When a step is done. Default: `{ changes = 1e-5 }`.
     #[serde(default)]
     pub convergence: Convergence,
-    /// How many Newton iterations a solver call may take. Default: to convergence, both fields.
+    /// How many Newton iterations a solver call may take. Default: `fixed`, both fields to convergence.
     #[serde(default)]
     pub newton: NewtonPolicy,
 }

@@ -144,8 +144,8 @@ pub enum Plane {
 pub enum StructureTimeScheme {
     /// Chung and Hulbert 1993.
     GeneralizedAlpha {
-        /// Spectral radius at infinite frequency: 1 keeps the energy of a linear vibration, and near 1 the forces of a
-        /// coupled run swing from step to step; 0 damps the highest frequencies most. Default: 0.5.
+        /// Spectral radius at infinite frequency: 1 keeps the energy, and the interface force oscillates from step to step; 0
+        /// damps most. Default: 0.5.
         #[serde(default = "spectral_radius")]
         spectral_radius: SpectralRadius,
     },

@@ -143,18 +143,14 @@ fn text_of(element: &str) -> Option<Text> {
         _ => -width,
     };
     let class = attribute(element, "class").unwrap_or_default().to_owned();
-    let extent = match attribute(element, "transform") {
+    let extent = if let Some(transform) = attribute(element, "transform") {
         // It runs upwards.
-        Some(transform) => {
-            let place = transform.strip_prefix("translate(")?.split(')').next()?;
-            let (x, y) = place.split_once(' ')?;
-            let (x, y): (f64, f64) = (x.parse().ok()?, y.parse().ok()?);
-            Extent([x - ASCENT * size, y - start - width, x + DESCENT * size, y - start])
-        }
-        None => {
-            let (x, y) = (number(element, "x")?, number(element, "y")?);
-            Extent([x + start, y - ASCENT * size, x + start + width, y + DESCENT * size])
-        }
+        let (x, y) = transform.strip_prefix("translate(")?.split(')').next()?.split_once(' ')?;
+        let (x, y): (f64, f64) = (x.parse().ok()?, y.parse().ok()?);
+        Extent([x - ASCENT * size, y - start - width, x + DESCENT * size, y - start])
+    } else {
+        let (x, y) = (number(element, "x")?, number(element, "y")?);
+        Extent([x + start, y - ASCENT * size, x + start + width, y + DESCENT * size])
     };
     Some(Text { words, extent, class })
 }

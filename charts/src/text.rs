@@ -1,6 +1,6 @@
 //! How much room a text takes.
 
-/// Advance widths of the printable characters of ASCII, in thousandths of the size of the font: those of DejaVu Sans,
+/// Advance widths of the printable characters of ASCII, in thousandths of the size of the font: those of `DejaVu` Sans,
 /// the widest of the fonts that viewers take for `sans-serif`.
 const ADVANCES: [u16; 95] = [
     318, 401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361, 318, 337, 636, 636, 636, 636, 636,

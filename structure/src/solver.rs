@@ -2,6 +2,7 @@
 
 use partita_iga::Spline;
 use partita_numerics::newton::{self, FactorLog, Failure, Limit, Report, Verdict};
+use partita_numerics::norms::extent;
 use partita_numerics::{DofMap, Pattern, PhaseSeconds};
 
 use crate::assembly::{Assembly, Forces, Local, Motion};
@@ -63,6 +64,8 @@ pub struct StructureSolver<const D: usize> {
     pub(crate) committed: StructureState,
     pub(crate) trial: StructureState,
     step: Option<Step>,
+    /// Part of the interface data: no state.
+    pub(crate) load_resolution: f64,
     pub(crate) work: Work<D>,
     pub(crate) phases: PhaseSeconds,
 }
@@ -127,6 +130,7 @@ impl<const D: usize> StructureSolver<D> {
             committed: state.clone(),
             trial: state,
             step: None,
+            load_resolution: 0.0,
             phases: PhaseSeconds::default(),
             space,
             model,
@@ -260,6 +264,19 @@ impl<const D: usize> StructureSolver<D> {
     #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.parts
+    }
+
+    /// Displacements `[m]` whose difference has a smaller norm than this are the same shape: they differ by less than the
+    /// last bit of the coordinates.
+    #[must_use]
+    pub fn resolution(&self) -> f64 {
+        f64::EPSILON * extent(self.space.points())
+    }
+
+    /// Tells the norm `[N, in 2D N/m]` below which the interface force of the next calls is round-off of what it was made from.
+    /// A residual below that leaves nothing to do.
+    pub fn set_load_resolution(&mut self, resolution: f64) {
+        self.load_resolution = resolution;
     }
 
     /// The residual R `[N, in 2D N/m]` of the last assembly on all dofs; in the rows of supports it holds the reactions.

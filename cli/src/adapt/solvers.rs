@@ -9,10 +9,11 @@ use partita_numerics::newton::{self, KeptTangent};
 use partita_numerics::phases::PhaseSeconds;
 use partita_structure::{StructureError, StructureSolver, StructureState};
 
-use super::Field;
+use super::backflow;
+use super::field::{Field, Suspect};
 
 macro_rules! field {
-    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr, $verify:expr, $work:expr) => {
+    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr, $verify:expr, $work:expr, $suspect:expr, $resolution:expr, $of_output:expr, $of_input:expr) => {
         impl Field for $solver {
             type State = $state;
             const NAME: &'static str = $name;
@@ -28,6 +29,9 @@ macro_rules! field {
             }
             fn worst_equation(&self) -> Option<String> {
                 Self::worst_equation(self).map(|worst| worst.to_string())
+            }
+            fn suspect(&self) -> Option<Suspect> {
+                $suspect(self)
             }
             fn output(&self, output: &mut [f64]) {
                 Self::output(self, output);
@@ -63,6 +67,15 @@ macro_rules! field {
                 let part = &self.parts()[index];
                 (part.name, &part.dofs)
             }
+            fn resolution(&self, part: usize) -> f64 {
+                $resolution(self, part)
+            }
+            fn output_resolution(&self) -> f64 {
+                $of_output(self)
+            }
+            fn set_input_resolution(&mut self, resolution: f64) {
+                $of_input(self, resolution);
+            }
             fn newton(&self) -> &newton::Settings {
                 self.newton_settings()
             }
@@ -76,7 +89,21 @@ macro_rules! field {
     };
 }
 
-field!(FluidSolver<2>, FluidState, FluidError, "fluid", identity, |_: &mut Self| Ok(()), fluid_work);
+field!(
+    FluidSolver<2>,
+    FluidState,
+    FluidError,
+    "fluid",
+    identity,
+    |_: &mut Self| Ok(()),
+    fluid_work,
+    backflow::suspect,
+    // Velocity comes first.
+    |fluid: &Self, part| if part == 0 { fluid.velocity_resolution() } else { 0.0 },
+    Self::load_resolution,
+    // It knows how exact displacements can be.
+    |_: &mut Self, _| {}
+);
 // No interface data can break a structure before its equations are solved.
 field!(
     StructureSolver<2>,
@@ -85,7 +112,11 @@ field!(
     "structure",
     Ok,
     Self::check_orientation,
-    structure_work
+    structure_work,
+    |_: &Self| None,
+    |structure: &Self, _| structure.resolution(),
+    Self::resolution,
+    Self::set_load_resolution
 );
 
 fn fluid_work(fluid: &FluidSolver<2>) -> WorkDetails {

@@ -83,6 +83,13 @@ pub struct Work {
     pub factorizations: usize,
     /// Linear solves with it.
     pub solves: usize,
+    /// Calls that converged because their residual was round-off, above the bound or already at the entry; left out where there are none.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub at_round_off: usize,
+    /// Steps in which the field never iterated although more than a thousandth of its load was not balanced; left out where
+    /// there are none.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub idle_steps: usize,
     /// What stands behind these counts, and what they leave out.
     #[serde(flatten)]
     pub details: WorkDetails,
@@ -95,8 +102,15 @@ impl Work {
         self.assemblies += step.assemblies;
         self.factorizations += step.factorizations;
         self.solves += step.solves;
+        self.at_round_off += step.at_round_off;
+        self.idle_steps += usize::from(step.idle_under_load);
         self.details += step.details;
     }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature is serde's")]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 /// Wall-clock seconds by what was done in them; no second is counted twice.

@@ -3,6 +3,7 @@
 mod beam;
 mod benchmarks;
 mod checkpoint;
+mod closed;
 mod damping;
 mod effects;
 mod failures;

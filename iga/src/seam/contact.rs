@@ -4,7 +4,7 @@ mod crossing;
 
 use std::fmt;
 
-use super::{Seams, TOUCH, opposite, size};
+use super::{GAP, Seams, TOUCH, length, opposite, size};
 use crate::project::Projector;
 use crate::side::Side;
 use crate::spline::Spline;
@@ -22,7 +22,10 @@ const CORNER: usize = 1;
 /// which no curvature between the chords explains.
 #[must_use]
 pub fn contact<const D: usize>(patch: &Spline<D>, seams: &Seams) -> Option<Contact<D>> {
-    let touch = TOUCH * size(patch);
+    // The two sides of a foil do not touch.
+    let thin =
+        (0..patch.parameters()).map(|parameter| length(patch, parameter)).fold(f64::INFINITY, f64::min);
+    let touch = (TOUCH * size(patch)).min(GAP * thin);
     let free = |side: &Side| seams.partner(*side).is_none() && !seams.points().contains(side);
     let edges: Vec<(Side, Spline<D>)> = patch.sides().filter(free).map(|s| (s, patch.side(s).0)).collect();
     // Surfaces of volumes are left alone.

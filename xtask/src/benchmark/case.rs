@@ -64,6 +64,9 @@ pub(super) struct Quantity {
     pub(super) scale: f64,
     /// The literature's value.
     pub(super) reference: f64,
+    /// Of an amplitude whose mean is too near to zero to be compared: that mean, for the pictures. Default: none.
+    #[serde(default)]
+    pub(super) around: Option<f64>,
     /// How far ours may be from it on the finest level \[%\].
     pub(super) target_percent: f64,
 }

@@ -57,7 +57,7 @@ impl Page {
         let mut files = vec![(FILE.to_owned(), self.text())];
         for (facts, published) in self.ours.iter().zip(&self.published.facts) {
             for count in [Count::Coupling, Count::Newton] {
-                let title = format!("{}: {}", facts.case.scene(), count.title().to_lowercase());
+                let title = format!("{}: {}", facts.case.scene(), count.title());
                 let panels = [("published", &published.grid), ("ours", &facts.grid)];
                 let path = format!("docs/{}", heat_map_path(facts.case, count));
                 files.push((path, heat_map::side_by_side(&title, panels, count)));

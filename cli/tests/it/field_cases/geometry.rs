@@ -20,7 +20,12 @@ fn run(case: &Case, scene: &str, out: &str, more: &[&str]) -> Outcome {
 fn refusal(case: &Case, scene: &str, more: &[&str]) -> String {
     let outcome = case.partita(&[&["check", scene], more].concat());
     assert_eq!(outcome.code, 2, "{}{}", outcome.stdout, outcome.stderr);
-    outcome.stderr.replace(['│', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ")
+    unwrapped(&outcome.stderr)
+}
+
+/// A message without its frame and line breaks.
+fn unwrapped(message: &str) -> String {
+    message.replace(['│', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// What `check` warns of in a sound scene: the lines of this name.

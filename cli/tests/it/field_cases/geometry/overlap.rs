@@ -36,37 +36,49 @@ fn a_side_that_is_wetted_from_inside_is_refused_with_the_place() {
     assert!(message.contains("at (0, ") && message.contains("`left` is wetted from inside"), "{message}");
 }
 
+/// Two plates: one under the tank from (0, -0.1) to (1, 0), whose upper edge is the group `skin`, and one with its lower
+/// left corner at a place of its own.
+fn plates([x, y]: [f64; 2]) -> String {
+    let corners = [
+        [0.0, -0.1],
+        [1.0, -0.1],
+        [1.0, 0.0],
+        [0.0, 0.0],
+        [x, y],
+        [x + 0.2, y],
+        [x + 0.2, y + 0.2],
+        [x, y + 0.2],
+    ];
+    let nodes: Vec<String> =
+        corners.iter().enumerate().map(|(i, [x, y])| format!("{} {x} {y} 0\n", i + 1)).collect();
+    format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"skin\"\n1 2 \"foot\"\n$EndPhysicalNames\n\
+         $Nodes\n8\n{}$EndNodes\n$Elements\n4\n1 1 2 1 1 3 4\n2 1 2 2 2 1 2\n3 3 2 3 3 1 2 3 4\n4 3 2 3 3 5 6 7 8\n\
+         $EndElements\n",
+        nodes.concat()
+    )
+}
+
 #[test]
 fn a_structure_that_reaches_into_the_fluid_is_refused() {
     let case = Case::new("overlap");
-    // Wetted from the right side, but the strip leads back through the water.
-    let strip = "[structure.geometry.spline]\nfile = \"hook.toml\"\n[structure.material";
     let text = case.text("scene.toml");
-    let (start, end) = (text.find("[structure.geometry").unwrap(), text.find("[structure.material").unwrap());
-    let text = format!("{}{strip}{}", &text[..start], &text[end + "[structure.material".len()..]);
-    let text = text
-        .replace("wetted = [\"bottom\"]", "wetted = [\"top\"]")
-        .replace("[\"left\", \"right\"]", "[\"left\"]");
-    std::fs::write(case.path("hook.toml.scene"), &text).unwrap();
-    // One column beside the tank, the top of the rest is the bottom of the water.
-    let patch = |far: f64| {
-        format!(
-            "format = \"partita-spline\"\nversion = 1\ndimension = 2\ndegrees = [1, 1]\nknots = [[0, 0, 1, 1], [0, 0, 1, 1]]\n\
-             control_points = [[0, -0.1], [{far}, -0.1], [0, 0], [1, 0]]\n"
-        )
+    let [start, end] =
+        ["[structure.geometry", "[structure.material"].map(|table| text.find(table).expect("a table"));
+    let text =
+        format!("{}[structure.geometry.gmsh]\nfile = \"plates.msh\"\n{}", &text[..start], &text[end..]);
+    let text = text.replace("[\"bottom\"]", "[\"skin\"]").replace("[\"left\", \"right\"]", "[\"foot\"]");
+    let text = text.replace("structure_displacement", "structure_point");
+    std::fs::write(case.path("plates.toml"), text).expect("the scene is written");
+    let mut with_second = |place| {
+        std::fs::write(case.path("plates.msh"), plates(place)).expect("the mesh is written");
+        &case
     };
-    std::fs::write(case.path("hook.toml"), patch(1.0)).unwrap();
-    sound(&case, "hook.toml.scene", &[]);
-    // A second layer above the interface: a ring round the bottom edge of the tank whose upper half is in the water.
-    std::fs::write(
-        case.path("hook.toml"),
-        "format = \"partita-spline\"\nversion = 1\ndimension = 2\ndegrees = [1, 1]\n\
-         knots = [[0, 0, 1, 2, 3, 3], [0, 0, 1, 1]]\n\
-         control_points = [[0.5, 0.4], [-0.3, 0.4], [-0.3, -0.3], [1.3, -0.3], [0.5, 0.6], [-0.5, 0.6], [-0.5, -0.5], [1.3, -0.5]]\n",
-    )
-    .unwrap();
-    let checked = case.partita(&["check", "hook.toml.scene"]);
-    assert_eq!(checked.code, 2, "{}", checked.stdout);
+    sound(with_second([1.4, 0.4]), "plates.toml", &[]);
+    let message = refusal(with_second([0.4, 0.4]), "plates.toml", &[]);
+    assert!(message.contains("at (0.4, 0.4) m the structure lies inside the fluid's mesh"), "{message}");
+    let message = refusal(with_second([0.9, 0.7]), "plates.toml", &[]);
+    assert!(message.contains("inside the fluid's mesh"), "partly: {message}");
 }
 
 /// A beam in a channel, with fluid on both sides and round its end.
@@ -93,10 +105,24 @@ fn thin_beams_and_coarse_curves_are_no_overlap() {
 
 #[test]
 fn a_mesh_that_is_wetted_from_inside_is_refused_too() {
-    let case = Case::new("ring_seam");
-    let text = case.text("solid.msh").replace("\"outer\"", "\"skin\"").replace("\"inner\"", "\"outer\"");
-    std::fs::write(case.path("solid.msh"), text).expect("the mesh is written");
-    // Scaled about the origin and moved by the fluid's scale it does not fit; the message is the one of the place.
-    let message = refusal(&case, "mesh.toml", &[]);
-    assert!(message.contains("lie off the structure"), "{message}");
+    let case = Case::new("overlap");
+    let text = case.text("scene.toml");
+    let [start, end] =
+        ["[structure.geometry", "[structure.material"].map(|table| text.find(table).expect("a table"));
+    let text =
+        format!("{}[structure.geometry.gmsh]\nfile = \"plates.msh\"\n{}", &text[..start], &text[end..]);
+    let text = text.replace("[\"bottom\"]", "[\"foot\"]").replace("[\"left\", \"right\"]", "[\"skin\"]");
+    let text = text.replace("structure_displacement", "structure_point");
+    std::fs::write(case.path("plates.toml"), text).expect("the scene is written");
+    // The plate from 0 to 0.1 m, held at the top.
+    std::fs::write(
+        case.path("plates.msh"),
+        plates([3.0, 0.0]).replace(" 0 0\n", " 0.1 0\n").replace(" -0.1 0\n", " 0 0\n"),
+    )
+    .expect("the mesh is written");
+    let message = refusal(&case, "plates.toml", &[]);
+    assert!(
+        message.contains("`foot` is wetted from inside") && message.contains("8 of 8 edges"),
+        "{message}"
+    );
 }

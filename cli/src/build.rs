@@ -1,6 +1,8 @@
 //! From a validated scene to a run that can be stepped.
 
 mod coupling;
+#[cfg(test)]
+mod defaults;
 mod fluid;
 mod interface;
 mod structure;
@@ -11,9 +13,9 @@ use partita_numerics::newton::{self, Bound, Check};
 use partita_structure::{MaterialError, StructureError, StructureSolver};
 use thiserror::Error;
 
-pub(crate) use fluid::nearest_node;
+pub(crate) use fluid::{holders, nearest_node};
 pub(crate) use interface::transfer;
-pub(crate) use structure::{boundary, place_in};
+pub(crate) use structure::{boundary, place_in, side, supports};
 
 use crate::adapt::{Adapter, Slot};
 use crate::scene::{Resolved, schema};

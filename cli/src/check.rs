@@ -1,16 +1,33 @@
 //! What a scene is, in words and numbers, before it runs.
 
+mod balance;
+mod inflow;
+
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use partita_fluid::FluidSolver;
+use partita_iga::Side;
+use partita_iga::seam::Seams;
 use partita_mesh::{Mesh, Place, quality, simplex};
 use partita_structure::{Space, StructureSolver};
 
-use crate::build::Run;
+use crate::build::{BuildError, Run};
 use crate::memory;
-use crate::scene::schema::{Condition, Coupling, Direction, Fluid, Part, Structure, plain};
-use crate::scene::{Resolved, words};
+use crate::scene::schema::{Component, Condition, Coupling, Direction, Fluid, Part, Structure, plain};
+use crate::scene::{Content, Resolved, Role, words};
+use inflow::Inflow;
+
+/// Looks ahead to what a run would stop at in a later step: an enclosed fluid that does not keep its volume.
+///
+/// # Errors
+/// What the run would stop at, with its time.
+pub fn look_ahead(resolved: &Resolved, run: &Run) -> Result<(), BuildError> {
+    match run.first().field() {
+        Some(fluid) => Ok(balance::check(fluid, &resolved.scene.time)?),
+        None => Ok(()),
+    }
+}
 
 /// Describes a scene and the run that was built from it: title, meshes with their boundary groups, splines, interface,
 /// choices. The last line is `scene is sound`.
@@ -23,9 +40,14 @@ pub fn describe(resolved: &Resolved, run: &Run) -> String {
     page.line("time", format!("{steps} steps of {step} s, to t = {} s", short(steps as f64 * step.get())));
     if let (Some(scene), Some(fluid)) = (&scene.fluid, fluid) {
         page.fluid(scene, fluid);
+        for inflow in inflow::all(&resolved.scene, fluid) {
+            page.inflow(&inflow);
+        }
+        page.file(resolved.shapes.fluid_file.as_ref());
     }
     if let (Some(scene), Some(structure)) = (&scene.structure, structure) {
         page.structure(scene, structure);
+        page.file(resolved.shapes.structure_file.as_ref());
     }
     if let (Some(coupling), Some(fluid), Some(structure)) = (&scene.coupling, fluid, structure) {
         let (nodes, points) = (fluid.interface_nodes().len(), structure.interface_points().len());
@@ -84,6 +106,51 @@ impl Page {
         }
     }
 
+    fn inflow(&mut self, inflow: &Inflow) {
+        let Inflow { group, time, discrete, exact } = inflow;
+        let (word, sign) = if *exact < 0.0 { ("outflow", -1.0) } else { ("inflow", 1.0) };
+        let [of_mesh, of_formula] = [discrete, exact].map(|flow| six(sign * flow));
+        let difference = 100.0 * (discrete / exact - 1.0);
+        let difference = if difference.is_finite() && difference.abs() >= 0.05 {
+            format!(" ({difference:+.1} %)")
+        } else {
+            String::new()
+        };
+        self.line(
+            "",
+            format!(
+                "{word} through {group} at t = {} s: {of_mesh} m2/s on this mesh{difference}, {of_formula} m2/s by its formula",
+                short(*time)
+            ),
+        );
+    }
+
+    /// What the file of a mesh holds, and what became of it.
+    fn file(&mut self, content: Option<&Content>) {
+        let Some(content) = content else { return };
+        let turned = if content.turned { ": all its cells ran clockwise and were turned round" } else { "" };
+        self.line("", format!("read from {}{turned}", content.file));
+        for (dimension, kind) in ["points", "curves", "surfaces", "volumes"].iter().enumerate().rev() {
+            let groups: Vec<String> = content
+                .groups
+                .iter()
+                .filter(|(group, _)| group.dimension == dimension)
+                .map(|(group, role)| {
+                    let role = match role {
+                        Role::Used => "",
+                        Role::Inside => ", inside",
+                        Role::LeftOut => ", left out",
+                        Role::Unused => ", not used",
+                    };
+                    format!("{} ({}{role})", group.name, group.elements)
+                })
+                .collect();
+            if !groups.is_empty() {
+                self.line("", format!("{kind} (and their elements): {}", groups.join(", ")));
+            }
+        }
+    }
+
     fn structure(&mut self, scene: &Structure, structure: &StructureSolver<2>) {
         let unknowns: usize = structure.parts().iter().map(|part| part.dofs.len()).sum();
         self.line("structure", format!("{}, {unknowns} unknowns", elements_of(structure.space())));
@@ -92,6 +159,14 @@ impl Page {
         self.line("", format!("body force {} N/m3 (per volume)", words(&scene.body_force)));
         self.line("", words(&scene.time_scheme));
         self.line("", format!("clamped: {}; wetted: {}", names(&scene.clamped), names(&scene.wetted)));
+        if !scene.held.is_empty() {
+            self.line("", format!("held: {}", held(scene)));
+        }
+        if let Space::Patch(patch) = structure.space()
+            && let Some(joined) = joined(patch.seams())
+        {
+            self.line("", joined);
+        }
     }
 
     fn coupling(&mut self, coupling: &Coupling) {
@@ -116,10 +191,10 @@ fn centroid(mesh: &Mesh<2>, cell: usize) -> [f64; 2] {
 /// What a structure is made of.
 fn elements_of(space: &Space<2>) -> String {
     match space {
-        Space::Patch(spline) => {
-            let [along, across] = [0, 1].map(|direction| spline.knots()[direction].element_count());
+        Space::Patch(patch) => {
+            let [along, across] = [0, 1].map(|direction| patch.spline().knots()[direction].element_count());
             let [degree, other] = degrees(space);
-            let points = spline.control_points().len();
+            let points = patch.points().len();
             format!("{along} x {across} elements of degree {degree} x {other}, {points} control points")
         }
         Space::Lagrange(mesh) => {
@@ -131,7 +206,7 @@ fn elements_of(space: &Space<2>) -> String {
 
 fn degrees(space: &Space<2>) -> [usize; 2] {
     match space {
-        Space::Patch(spline) => [0, 1].map(|direction| spline.knots()[direction].degree()),
+        Space::Patch(patch) => [0, 1].map(|direction| patch.spline().knots()[direction].degree()),
         // About as many functions meet at a node as for a spline of degree one.
         Space::Lagrange(_) => [1; 2],
     }
@@ -142,6 +217,20 @@ fn names(sides: &[Part]) -> String {
         return "none".to_owned();
     }
     sides.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+fn held(scene: &Structure) -> String {
+    let of_part = |(part, components): (&String, &Vec<Component>)| {
+        format!("{part} in {}", components.iter().map(|c| c.name()).collect::<Vec<_>>().join(" and "))
+    };
+    scene.held.iter().map(of_part).collect::<Vec<_>>().join(", ")
+}
+
+/// Which sides of a patch are no sides of its boundary.
+fn joined(seams: &Seams) -> Option<String> {
+    let pairs = [(Side::LEFT, Side::RIGHT), (Side::BOTTOM, Side::TOP)];
+    let (side, partner) = pairs.into_iter().find(|(side, _)| seams.partner(*side).is_some())?;
+    Some(format!("closed: {side} and {partner} are joined"))
 }
 
 fn extent(points: &[[f64; 2]]) -> String {
@@ -156,6 +245,11 @@ fn extent(points: &[[f64; 2]]) -> String {
 fn box_of([left, right]: [f64; 2], [bottom, top]: [f64; 2]) -> String {
     let [left, right, bottom, top] = [left, right, bottom, top].map(short);
     format!("x from {left} to {right} m, y from {bottom} to {top} m")
+}
+
+/// Six digits of a measured number.
+fn six(number: f64) -> String {
+    plain(format!("{number:.5e}").parse().unwrap_or(number))
 }
 
 /// Nine digits: enough for a reader, without the noise of the last bits.

@@ -22,7 +22,7 @@ impl Drawing {
     #[must_use]
     pub(crate) fn new(run: &Run, subdivisions: usize) -> Self {
         let patch = run.second().field().and_then(|structure| match structure.space() {
-            Space::Patch(spline) => Some(spline),
+            Space::Patch(patch) => Some(patch.spline()),
             Space::Lagrange(_) => None,
         });
         let tessellate = |spline: &Spline<2>| {
@@ -68,8 +68,8 @@ impl Drawing {
         }
         if let Some(structure) = run.second().field() {
             match (structure.space(), &self.patch) {
-                (Space::Patch(spline), Some(tessellation)) => {
-                    write_patch(structure, spline, tessellation, writer, step, time)?;
+                (Space::Patch(patch), Some(tessellation)) => {
+                    write_patch(structure, patch.spline(), tessellation, writer, step, time)?;
                 }
                 (Space::Patch(_), None) => unreachable!("a patch is cut when the drawing is made"),
                 (Space::Lagrange(mesh), _) => write_solid(structure, mesh, writer, step, time)?,

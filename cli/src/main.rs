@@ -11,13 +11,16 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Parser;
+use partita::output::tables::{self, TableError};
 use partita::output::{Clock, Ending, Summary};
 use partita::scene::Resolved;
 use partita::session::{Options, RunError, Session};
 use partita::warning::{self, Warning};
 use partita::{build, check, output, plan, scene, stability, study};
 
-use args::{Arguments, Check, Command, Manner, Plan, Resume, Run, SceneArguments, Stability, Study};
+use args::{
+    Arguments, Check, Command, Manner, Plan, Resume, Rows, Run, SceneArguments, Stability, Study, Table,
+};
 use failure::Failure;
 use standing::Standing;
 
@@ -34,6 +37,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check(&arguments),
         Command::Plan(arguments) => plan(&arguments),
         Command::Resume(arguments) => resume(&arguments, clock),
+        Command::Table(arguments) => table(&arguments),
         Command::Study(arguments) => study(&arguments),
         Command::Stability(arguments) => stability(&arguments),
     };
@@ -46,7 +50,8 @@ fn run(arguments: &Run, clock: Clock) -> Result<ExitCode, Failure> {
     let options = options(&arguments.manner);
     let built = build::run_on(&resolved, options.threads())?;
     let warnings = warning::of(&resolved, &built);
-    if !arguments.manner.quiet {
+    // What is denied is shown even to those who asked for quiet.
+    if !arguments.manner.quiet || arguments.deny_warnings {
         warn(&warnings);
     }
     deny(&warnings, arguments.deny_warnings)?;
@@ -82,6 +87,7 @@ struct Checked {
 fn look_at(scene: &SceneArguments) -> Result<Checked, Failure> {
     let resolved = scene::load(&scene.path, &scene.overrides)?;
     let run = build::run(&resolved)?;
+    check::look_ahead(&resolved, &run)?;
     Ok(Checked { description: check::describe(&resolved, &run), warnings: warning::of(&resolved, &run) })
 }
 
@@ -131,6 +137,25 @@ fn resume(arguments: &Resume, clock: Clock) -> Result<ExitCode, Failure> {
     }
     let session = Session::resume(&resolved, &arguments.dir, options(&arguments.manner), clock)?;
     finish(session, &arguments.dir, &arguments.manner)
+}
+
+fn table(arguments: &Table) -> Result<ExitCode, Failure> {
+    if !arguments.dir.join(output::RECORDS).is_file() {
+        return Err(Failure::no_run(&arguments.dir));
+    }
+    let rows = match arguments.rows {
+        Rows::Iterations => tables::Rows::Iterations,
+        Rows::Steps => tables::Rows::Steps,
+    };
+    let mut stdout = io::BufWriter::new(io::stdout().lock());
+    let written = tables::write(&arguments.dir, rows, &mut stdout)
+        .and_then(|()| stdout.flush().map_err(TableError::Write));
+    match written {
+        Err(TableError::Write(error)) if error.kind() == ErrorKind::BrokenPipe => Ok(ExitCode::SUCCESS),
+        Err(TableError::Write(error)) => Err(Failure::no_stdout(&error)),
+        Err(TableError::Records(error)) => Err(error.into()),
+        Ok(()) => Ok(ExitCode::SUCCESS),
+    }
 }
 
 /// Says that a run has no step left to make, and is left as it is.

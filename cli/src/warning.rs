@@ -5,10 +5,12 @@
 
 mod added_mass;
 mod flow;
+mod formulas;
 mod kind;
 mod motion;
-pub(crate) mod scales;
+mod scales;
 mod structure;
+mod support;
 mod tolerances;
 
 use std::fmt;
@@ -66,12 +68,21 @@ pub fn of(resolved: &Resolved, run: &Run) -> Vec<Warning> {
         let pressure = structure::pressure(&found, structure, solver, flow.as_ref());
         let extent = scales::size(scales::extents(solver.space().points()));
         structure::modulus(&mut found, structure, pressure);
+        support::pieces(&mut found, structure, solver);
+        support::gap(&mut found, solver);
         tolerances::newton(&mut found, "structure", &structure.newton, pressure * extent);
         if let Some(coupling) = &resolved.scene.coupling {
             tolerances::coupling(&mut found, coupling, extent);
         }
     }
+    if let (Some(fluid), Some(of_fluid), Some(of_structure)) =
+        (&resolved.scene.fluid, run.first().field(), run.second().field())
+        && resolved.scene.moves_the_interface()
+    {
+        support::corners(&mut found, fluid, of_fluid, of_structure);
+    }
     in_time(&mut found, run);
+    formulas::check(&mut found);
     found.warnings
 }
 

@@ -145,6 +145,7 @@ pub fn solve_step(
             record.acceleration = Some(accelerator.propose(&mut interface.x, &interface.r));
             record.seconds.acceleration += lap(&mut clock);
         }
+        record.seconds = record.seconds.to_the_microsecond();
         observer.iteration(record);
         if converged {
             return Ok(true);

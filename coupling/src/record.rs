@@ -193,7 +193,7 @@ impl StepRecord {
             residual: last.residual,
             largest_change: last.largest_change(),
             fields: [history.totals(0), history.totals(1)],
-            seconds,
+            seconds: seconds.to_the_microsecond(),
         }
     }
 
@@ -262,6 +262,20 @@ pub struct Seconds {
     pub transfer: f64,
     /// The accelerator \[s\].
     pub acceleration: f64,
+}
+
+impl Seconds {
+    /// The same to the microsecond: a clock knows no more, and a fifth of a record's bytes would be such digits.
+    #[must_use]
+    pub fn to_the_microsecond(mut self) -> Self {
+        let round = |seconds: &mut f64| *seconds = (*seconds * 1e6).round() / 1e6;
+        for FieldSeconds { total, phases } in &mut self.fields {
+            let PhaseTimes { assembly, factorization, solve, mesh_motion } = phases;
+            [total, assembly, factorization, solve, mesh_motion].into_iter().for_each(round);
+        }
+        [&mut self.transfer, &mut self.acceleration].into_iter().for_each(round);
+        self
+    }
 }
 
 impl AddAssign for Seconds {
@@ -375,6 +389,19 @@ mod tests {
         assert_eq!((record.fields[0].details.tangents, record.fields[0].details.mesh_solves), (4, 2));
         assert_eq!(record.seconds.transfer.to_bits(), 2.0_f64.to_bits());
         assert_eq!(record.without_seconds().seconds, Seconds::default());
+    }
+
+    #[test]
+    fn seconds_are_rounded_to_the_microsecond() {
+        let phases = PhaseTimes { assembly: 0.002_449_383_999_999_999_8, ..PhaseTimes::default() };
+        let field = FieldSeconds { total: 1.234_567_89, phases };
+        let seconds = Seconds { fields: [field; 2], transfer: 4e-7, acceleration: 6e-7 };
+        let line = serde_json::to_string(&seconds.to_the_microsecond()).unwrap();
+        for needed in
+            ["\"total\":1.234568,", "\"assembly\":0.002449,", "\"transfer\":0.0,", "\"acceleration\":1e-6"]
+        {
+            assert!(line.contains(needed), "{needed} is not in {line}");
+        }
     }
 
     #[test]

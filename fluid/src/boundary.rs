@@ -1,6 +1,7 @@
 //! Boundary conditions sorted out by nodes and facets, once.
 
 mod check;
+mod closed;
 mod natural;
 mod slip;
 
@@ -8,6 +9,7 @@ use partita_mesh::motion::prescribed_dofs;
 use partita_mesh::{Mesh, Place};
 
 pub(crate) use check::check;
+pub(crate) use closed::ClosedWalls;
 pub(crate) use natural::{Natural, NaturalFacet};
 pub(crate) use slip::{Frames, SlipNode};
 
@@ -42,6 +44,9 @@ pub(crate) struct Boundaries<const D: usize> {
     pub(crate) mesh_prescribed: Option<Vec<bool>>,
     /// Whether velocity is prescribed all round.
     pub(crate) is_closed: bool,
+    /// Its moving walls, if it is.
+    pub(crate) closed_walls: Option<ClosedWalls<D>>,
+    /// Nodes held in all directions, ascending.
     holds: Vec<(usize, Hold)>,
 }
 
@@ -52,7 +57,7 @@ impl<const D: usize> Boundaries<D> {
         model: &FluidModel<D>,
         settings: &FluidSettings,
     ) -> Result<Self, FluidError> {
-        let owners = owners(mesh, model);
+        let owners = holding_conditions(mesh, model);
         let mut boundaries = Self {
             prescribed: vec![false; mesh.points().len() * (D + 1)],
             interface: Vec::new(),
@@ -62,12 +67,17 @@ impl<const D: usize> Boundaries<D> {
             slip: Vec::new(),
             mesh_prescribed: mesh_prescribed(mesh, model, settings)?,
             is_closed: !model.boundary.iter().any(|(_, condition)| condition.is_natural()),
+            closed_walls: None,
             holds: Vec::new(),
         };
         for (node, owner) in owners.iter().enumerate() {
             if let Some(owner) = *owner {
                 boundaries.hold(node, owner, model, settings);
             }
+        }
+        if boundaries.is_closed {
+            let nodes = boundaries.wall_motion.iter().map(|(node, _)| *node);
+            boundaries.closed_walls = ClosedWalls::new(mesh, nodes);
         }
         boundaries.slip = slip::nodes(mesh, model, |node| owners[node]);
         for slip in &boundaries.slip {
@@ -109,6 +119,24 @@ impl<const D: usize> Boundaries<D> {
         self.prescribed[node * (D + 1)..node * (D + 1) + D].fill(true);
     }
 
+    /// The velocity at which the conditions hold a node while no boundary moves; `None` where they leave a direction free.
+    pub(crate) fn held_at_rest(
+        &self,
+        model: &FluidModel<D>,
+        node: usize,
+        point: &[f64; D],
+        time: f64,
+    ) -> Option<[f64; D]> {
+        let at = self.holds.binary_search_by_key(&node, |&(held, _)| held).ok()?;
+        match self.holds[at].1 {
+            Hold::Wall | Hold::Still => Some([0.0; D]),
+            Hold::Field(owner) => match &model.boundary[owner].1 {
+                BoundaryCondition::Velocity(field) => Some(field(point, time)),
+                other => unreachable!("{other:?} holds no velocity field"),
+            },
+        }
+    }
+
     /// Sets the prescribed entries of `values` at `time`, on the mesh with these `points` and velocities `w`.
     /// The frames of slip nodes are those of the same mesh.
     pub(crate) fn impose(
@@ -120,7 +148,7 @@ impl<const D: usize> Boundaries<D> {
     ) -> Result<(), FluidError> {
         for &(node, hold) in &self.holds {
             let velocity = match hold {
-                Hold::Wall => mesh.velocity_of(node),
+                Hold::Wall => self.wall_velocity(mesh, node),
                 Hold::Still => [0.0; D],
                 Hold::Field(owner) => match &model.boundary[owner].1 {
                     BoundaryCondition::Velocity(field) => {
@@ -136,6 +164,14 @@ impl<const D: usize> Boundaries<D> {
             slip.impose(frames.rotation(k), &mesh.velocity_of(slip.node), velocity);
         }
         Ok(())
+    }
+
+    /// w, in a closed domain with the normal part that keeps the balance of volume.
+    fn wall_velocity(&self, mesh: &MovedMesh<D>, node: usize) -> [f64; D] {
+        let w = mesh.velocity_of(node);
+        let Some(walls) = &self.closed_walls else { return w };
+        let correction = walls.correction(node);
+        std::array::from_fn(|c| w[c] + correction[c])
     }
 }
 
@@ -179,12 +215,14 @@ pub(crate) fn evaluate<const D: usize>(
     }
 }
 
-/// For each node the condition that holds it: of the highest rank, among equals the first listed.
-fn owners<const D: usize>(mesh: &Mesh<D>, model: &FluidModel<D>) -> Vec<Option<usize>> {
+/// For each node the condition that holds it, by its place in the model's list: of the highest rank (see
+/// [`FluidModel::boundary`]), among equals the first listed. Groups that the mesh does not have are passed over.
+#[must_use]
+pub fn holding_conditions<const D: usize>(mesh: &Mesh<D>, model: &FluidModel<D>) -> Vec<Option<usize>> {
     let mut owners: Vec<Option<usize>> = vec![None; mesh.points().len()];
     let rank = |index: usize| model.boundary[index].1.rank();
     for (index, (group, _)) in model.boundary.iter().enumerate() {
-        for node in mesh.group_nodes(group).expect("a checked group") {
+        for node in mesh.group_nodes(group).unwrap_or_default() {
             if owners[node].is_none_or(|owner| rank(index) > rank(owner)) {
                 owners[node] = Some(index);
             }

@@ -69,14 +69,15 @@ pub enum FluidError {
          hint: pin the pressure of one node, or make one boundary an outflow or a traction"
     )]
     PressureLevel,
-    /// Velocity is prescribed all round and the boundary moves.
+    /// Velocity is prescribed all round, and another field moves the boundary.
     #[error(
-        "fluid: boundary group `{group}` moves, and every boundary prescribes the normal velocity: an \
-         incompressible fluid admits only motions that keep its volume, and a pressure pin would hide the rest\n\
+        "fluid: boundary group `{group}` moves with a structure, and every boundary prescribes the normal velocity: \
+         an incompressible fluid admits only motions that keep its volume, and the iterates of an elastic structure \
+         do not\n\
          hint: make one boundary an outflow or a traction"
     )]
     ClosedAndMoving {
-        /// The first group that moves.
+        /// The first group that moves so.
         group: String,
     },
     /// A pressure pin where the pressure has a level.
@@ -98,11 +99,18 @@ pub enum FluidError {
         /// How many there are.
         nodes: usize,
     },
-    /// Prescribed velocities do not keep the volume.
+    /// Prescribed velocities and motions do not keep the volume.
     #[error(
-        "t = {} s, fluid: prescribed velocities carry a net {net:.3e} m^{dimension}/s out of a closed domain \
+        "t = {} s, fluid: {what} carry a net {net:.3e} m^{dimension}/s out of a closed domain \
          ({gross:.3e} m^{dimension}/s pass its boundary)\n\
-         hint: make one boundary an outflow or a traction, or balance inflow and outflow edge by edge", shown(*time)
+         hint: make one boundary an outflow or a traction, or {balance}",
+        shown(*time),
+        what = if *.moves { "moving walls and prescribed velocities" } else { "prescribed velocities" },
+        balance = if *.moves {
+            "let the walls enclose the same volume at all times"
+        } else {
+            "balance inflow and outflow edge by edge"
+        },
     )]
     NetFlux {
         /// When `[s]`.
@@ -111,6 +119,8 @@ pub enum FluidError {
         net: f64,
         /// The sum of the absolute fluxes of the facets.
         gross: f64,
+        /// Whether walls move.
+        moves: bool,
         /// 2 or 3.
         dimension: usize,
     },

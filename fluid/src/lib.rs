@@ -24,6 +24,7 @@
 mod added_mass;
 mod assembly;
 mod backflow;
+mod balance;
 mod boundary;
 mod error;
 mod force;
@@ -42,6 +43,7 @@ mod trial;
 mod worst;
 
 pub use backflow::{Backflow, Outlet};
+pub use boundary::holding_conditions;
 pub use error::FluidError;
 pub use model::{BodyForce, BoundaryCondition, FluidModel, InitialState, VectorField};
 pub use settings::{FluidSettings, PressurePin, Tangent, TimeScheme};

@@ -20,6 +20,7 @@ fuzz_target!(|bytes: &[u8]| {
             let limit = CONSTANT + TO_CONVERT * bytes.len();
             check_mesh::<2>(file.clone(), limit);
             check_mesh::<3>(file.clone(), limit);
+            check_part(&file, limit);
             check_solid_mesh(file, limit);
         }
         Err(error) => check_message(&error.to_string()),
@@ -54,6 +55,18 @@ fn check_mesh<const D: usize>(file: GmshFile, limit: usize) {
             assert!(mesh.cells().nodes.iter().all(|&node| node < mesh.points().len()));
             assert!(measures(mesh.points(), mesh.cells()).iter().all(|&x| x > 0.0 && x.is_finite()));
             assert!(mesh.groups().iter().all(|group| !group.facets.is_empty()));
+        }
+        Err(error) => check_message(&error.to_string()),
+    }
+}
+
+/// The cells of the first physical surface, if there is one.
+fn check_part(file: &GmshFile, limit: usize) {
+    let chosen = file.regions(2).into_iter().next();
+    match within(limit, || file.clone().part(2, chosen.as_slice())) {
+        Ok(part) => {
+            check_mesh::<2>(part.clone(), limit);
+            check_solid_mesh(part, limit);
         }
         Err(error) => check_message(&error.to_string()),
     }

@@ -79,9 +79,14 @@ pub fn derivatives(knots: &Knots, span: usize, xi: f64, order: usize, table: &mu
 pub fn blossom(knots: &Knots, span: usize, arguments: &[f64], values: &mut [f64]) {
     assert_eq!(arguments.len(), knots.degree(), "a blossom has as many arguments as the degree");
     assert_eq!(values.len(), knots.degree() + 1, "a span has degree + 1 basis functions");
+    blossom_on(knots.values(), span, arguments, values);
+}
+
+/// The same on any ascending knots, `arguments.len()` of them on either side of the span.
+pub(crate) fn blossom_on(knots: &[f64], span: usize, arguments: &[f64], values: &mut [f64]) {
     values[0] = 1.0;
     for (q, xi) in (1..).zip(arguments) {
-        raise(knots.values(), span, q, *xi, values);
+        raise(knots, span, q, *xi, values);
     }
 }
 

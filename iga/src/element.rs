@@ -41,7 +41,9 @@ impl Element {
         std::array::from_fn(|i| {
             let [start, end] = self.ranges[i];
             // Exact at both ends, unlike start + unit (end - start).
-            (1.0 - unit[i]) * start + unit[i] * end
+            let xi = (1.0 - unit[i]) * start + unit[i] * end;
+            // Far from zero the sum may round to a number outside of a short element.
+            if (0.0..=1.0).contains(&unit[i]) { xi.clamp(start, end) } else { xi }
         })
     }
 }

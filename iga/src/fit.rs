@@ -1,8 +1,12 @@
 //! Curves through given points.
 
+mod closed;
+
 use crate::bspline;
 use crate::knots::{KnotError, Knots};
 use crate::spline::{Spline, SplineError};
+
+pub use closed::closed;
 
 /// The B-spline curve of `degree` through `points`, in their order.
 ///

@@ -9,6 +9,9 @@ use std::ops::Range;
 
 use crate::side::End;
 
+/// Least length of an element as a share of the knots' range, for [`Knots::on_unit_interval`].
+const SHORTEST_ELEMENT: f64 = 1e-10;
+
 /// An open (clamped) knot vector together with its degree.
 ///
 /// The first and the last knot stand `degree + 1` times, so that the spline starts and ends in a control point;
@@ -39,8 +42,9 @@ impl Knots {
     /// Checks a knot vector `values` for basis functions of `degree`.
     ///
     /// # Errors
-    /// When the degree is zero, there are too few knots, a knot is not finite or smaller than the one before,
-    /// an end does not stand exactly `degree + 1` times, or an inner knot more than `degree` times.
+    /// When the degree is zero, there are too few knots, a knot is not finite or smaller than the one before, the
+    /// knots span a range that overflows, an end does not stand exactly `degree + 1` times, or an inner knot more than
+    /// `degree` times.
     pub fn new(degree: usize, values: Vec<f64>) -> Result<Self, KnotError> {
         check_order(degree, &values)?;
         check_multiplicities(degree, &values)?;
@@ -60,6 +64,32 @@ impl Knots {
         let start = std::iter::repeat_n(0.0, degree + 1);
         let end = std::iter::repeat_n(1.0, degree + 1);
         Self::new(degree, start.chain(inner).chain(end).collect())
+    }
+
+    /// The same knots with their range mapped to [0, 1]: `xi -> (xi - first) / (last - first)`.
+    ///
+    /// The ends become 0 and 1 to the last bit, and knots from 0 to 1 stay as they are.
+    ///
+    /// # Errors
+    /// When two different knots are closer than 1e-10 of the range: an element between them is lost in round-off.
+    ///
+    /// ```
+    /// use partita_iga::Knots;
+    ///
+    /// let knots = Knots::new(1, vec![5.0, 5.0, 5.5, 7.0, 7.0])?;
+    /// assert_eq!(knots.on_unit_interval()?.values(), [0.0, 0.0, 0.25, 1.0, 1.0]);
+    /// # Ok::<(), partita_iga::KnotError>(())
+    /// ```
+    pub fn on_unit_interval(&self) -> Result<Self, KnotError> {
+        let [first, last] = self.domain();
+        // An end divided by itself is 1, and differences of neighbours are exact: order and ends survive.
+        let mapped: Vec<f64> = self.values.iter().map(|knot| (knot - first) / (last - first)).collect();
+        let close = |&span: &usize| mapped[span + 1] - mapped[span] < SHORTEST_ELEMENT;
+        if let Some(&span) = self.spans.iter().find(|span| close(span)) {
+            let [left, right] = [self.values[span], self.values[span + 1]];
+            return Err(KnotError::TooClose { index: span, left, right, range: last - first });
+        }
+        Self::new(self.degree, mapped)
     }
 
     /// Degree of the basis functions.
@@ -194,6 +224,10 @@ fn check_order(degree: usize, values: &[f64]) -> Result<(), KnotError> {
     if let Some(index) = (1..values.len()).find(|&i| values[i] < values[i - 1]) {
         return Err(KnotError::Decreasing { index, previous: values[index - 1], value: values[index] });
     }
+    let [start, end] = [values[0], values[values.len() - 1]];
+    if !(end - start).is_finite() {
+        return Err(KnotError::Overflow { start, end });
+    }
     Ok(())
 }
 
@@ -252,6 +286,32 @@ pub enum KnotError {
         previous: f64,
         /// The value found there.
         value: f64,
+    },
+    /// The range of the knots is larger than any number.
+    #[error(
+        "the knots run from {start:e} to {end:e}, a range that overflows\n\
+         hint: divide all knots by the same number; only their ratios matter"
+    )]
+    Overflow {
+        /// First knot.
+        start: f64,
+        /// Last knot.
+        end: f64,
+    },
+    /// Two different knots with next to nothing between them.
+    #[error(
+        "the knots {index} and {} differ by {:.1e} of the range, too little for an element between them\n\
+         hint: they are {left} and {right}: make them equal, or move them apart", index + 1, (right - left) / range
+    )]
+    TooClose {
+        /// Index of the first of them.
+        index: usize,
+        /// Its value.
+        left: f64,
+        /// The value of the next.
+        right: f64,
+        /// Last knot less first knot.
+        range: f64,
     },
     /// A knot to be inserted does not lie inside the domain.
     #[error("no knot can be inserted at {value}\nhint: choose a place inside ({start}, {end})")]
@@ -328,6 +388,38 @@ mod tests {
         let knots = Knots::new(3, [[0.1; 4].as_slice(), &[third; 3], &[0.7; 4]].concat()).unwrap();
         let greville = knots.greville();
         assert_eq!((greville[0], greville[3], greville[6]), (0.1, third, 0.7));
+    }
+
+    #[test]
+    fn any_range_is_mapped_to_the_unit_interval_with_exact_ends() {
+        for (start, length) in [
+            (5.0, 2.0),
+            (-3.0, 1e-12),
+            (0.0, 1e-300),
+            (0.0, 5e-324),
+            (1e16, 2.0),
+            (-1e308, 1e308),
+            (-8e307, 1.6e308),
+        ] {
+            let knots = Knots::new(2, [[start; 3], [start + length; 3]].concat()).unwrap();
+            let mapped = knots.on_unit_interval().unwrap();
+            assert_eq!(mapped.values(), [0.0, 0.0, 0.0, 1.0, 1.0, 1.0], "{start} {length}");
+        }
+        let inner = Knots::new(1, [-2e-300, -2e-300, 0.0, 6e-300, 6e-300].to_vec()).unwrap();
+        assert_eq!(inner.on_unit_interval().unwrap().values(), [0.0, 0.0, 0.25, 1.0, 1.0]);
+        assert_eq!(quadratic().on_unit_interval(), Ok(quadratic()));
+    }
+
+    #[test]
+    fn knots_that_floating_point_cannot_tell_apart_are_refused() {
+        let sum = 0.1 + 0.2;
+        let slip = Knots::new(1, vec![0.0, 0.0, 0.3, sum, 1.0, 1.0]).unwrap();
+        assert!(matches!(slip.on_unit_interval(), Err(KnotError::TooClose { index: 2, .. })));
+        // Beside a huge range, two knots become one.
+        let hidden = Knots::new(1, vec![0.0, 0.0, 1e-300, 1e300, 1e300]).unwrap();
+        assert!(matches!(hidden.on_unit_interval(), Err(KnotError::TooClose { index: 1, .. })));
+        let wide = Knots::new(1, vec![-1.7e308, -1.7e308, 1.7e308, 1.7e308]);
+        assert!(matches!(wide, Err(KnotError::Overflow { .. })));
     }
 
     #[test]

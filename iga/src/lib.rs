@@ -33,6 +33,7 @@ pub mod nurbs;
 pub mod orientation;
 pub mod project;
 mod refine;
+pub mod seam;
 mod side;
 mod spline;
 pub mod transfer;

@@ -1,7 +1,7 @@
 //! Tensor-product splines.
 
 use crate::basis::{BasisValues, Derivatives};
-use crate::knots::Knots;
+use crate::knots::{KnotError, Knots};
 use crate::side::{End, Side};
 
 /// Largest number of parameters a spline may have.
@@ -86,6 +86,18 @@ impl<const D: usize> Spline<D> {
     /// When the number of control points differs or a coordinate is not finite.
     pub fn with_control_points(&self, control_points: Vec<[f64; D]>) -> Result<Self, SplineError> {
         Self::rational(self.knots.clone(), control_points, self.weights.clone())
+    }
+
+    /// The same shape with parameters that run from 0 to 1, whatever the knots were: the basis functions keep their
+    /// values.
+    ///
+    /// # Errors
+    /// The parameter, and what is wrong with its knots, where different knots are too close for that; see
+    /// [`Knots::on_unit_interval`].
+    pub fn on_unit_parameters(&self) -> Result<Self, (usize, KnotError)> {
+        let mapped =
+            self.knots.iter().enumerate().map(|(i, knots)| knots.on_unit_interval().map_err(|e| (i, e)));
+        Ok(Self { knots: mapped.collect::<Result<_, _>>()?, ..self.clone() })
     }
 
     /// Number of parameters.

@@ -20,11 +20,12 @@ fn deflected(size: [f64; 2], elements: [usize; 2]) -> StructureSolver<2> {
         material: Material::new(Law::StVenantKirchhoff, 5e6, 0.3, Plane::Strain).expect("a valid material"),
         body_force: BodyForce::Constant([0.0, -9.81e3]),
         clamped: [Side::LEFT, Side::RIGHT].into(),
+        held: Vec::new(),
         wetted: [Side::TOP].into(),
     };
     let time = TimeScheme::GeneralizedAlpha { spectral_radius: 0.5 };
     let settings = StructureSettings { time, ..StructureSettings::default() };
-    let mut solver = StructureSolver::new(Space::Patch(patch), model, settings).expect("a valid structure");
+    let mut solver = StructureSolver::new(patch.into(), model, settings).expect("a valid structure");
     for step in 1..=3 {
         solver.advance(0.01 * f64::from(step), 0.01).expect("the structure bends");
     }

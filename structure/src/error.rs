@@ -68,6 +68,17 @@ pub enum StructureError {
         /// The side asked for.
         side: Side,
     },
+    /// A side was named that is not on the boundary: the patch is closed there.
+    #[error(
+        "the sides `{side}` and `{partner}` of the patch lie on each other and are joined, so that `{side}` is no part of \
+         the boundary\nhint: name a side that is, or leave a gap between the two"
+    )]
+    JoinedSide {
+        /// The side asked for.
+        side: Side,
+        /// The side it is joined with.
+        partner: Side,
+    },
     /// A boundary group was named that the mesh does not have.
     #[error("the mesh has no boundary group `{group}`\nhint: it has {known}")]
     NoSuchGroup {
@@ -138,7 +149,9 @@ pub enum StructureError {
         determinant: f64,
     },
     /// Nothing is left to move.
-    #[error("every node is clamped\nhint: leave a part of the boundary free, or refine the patch or mesh")]
+    #[error(
+        "every node is held in all directions\nhint: leave a part of the boundary free, or refine the patch or mesh"
+    )]
     NothingFree,
     /// The tangent could not be factored.
     #[error(transparent)]

@@ -23,7 +23,7 @@ impl<const D: usize> StructureSolver<D> {
     /// Ties points `[m]` to the wetted parts of the undeformed structure, each to the closest place there.
     ///
     /// The operator between interface points takes the columns of the nodes that
-    /// [`interface_points`](Self::interface_points) lists; the others are clamped and do not move. See
+    /// [`interface_points`](Self::interface_points) lists; the others do not move at all. See
     /// [`partita_iga::transfer`] for patches and [`partita_mesh::solid::transfer`] for meshes.
     ///
     /// # Errors
@@ -35,11 +35,10 @@ impl<const D: usize> StructureSolver<D> {
     ) -> Result<Vec<InterfaceRow>, StructureError> {
         match (&self.space, &self.model.wetted) {
             (Space::Patch(patch), Boundary::Sides(sides)) => {
-                let rows = partita_iga::transfer::rows(patch, sides, points, tolerance)?;
-                let row = |row: partita_iga::transfer::Row| InterfaceRow {
-                    nodes: row.control_points,
-                    weights: row.weights,
-                    distance: row.distance,
+                let rows = partita_iga::transfer::rows(patch.spline(), sides, points, tolerance)?;
+                let row = |row: partita_iga::transfer::Row| {
+                    let (nodes, weights) = patch.merged(&row.control_points, row.weights);
+                    InterfaceRow { nodes, weights, distance: row.distance }
                 };
                 Ok(rows.into_iter().map(row).collect())
             }

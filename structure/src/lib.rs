@@ -9,15 +9,16 @@
 //! |---|---|
 //! | [`material`] | stress and tangent from the displacement gradient |
 //! | [`kernel`] | the element: internal force, tangent, mass, energies |
-//! | [`space`], [`elements`] | geometry and displacement space; shape functions tabulated once |
+//! | [`space`], [`patch`], [`elements`] | geometry and displacement space; shape functions tabulated once |
 //! | [`boundary`], [`interface`] | names of its parts; how points outside hang on it |
+//! | [`support`], [`rigid`] | what is held; pieces that still move without deforming |
 //! | `assembly`, `factor` | global forces and tangent; its symmetric factor |
 //! | [`load`] | body force, interface forces |
 //! | [`step`], [`state`] | time integration; what goes from step to step |
 //! | [`model`] | properties, supports, settings |
 //! | [`solver`], `newton`, `probe` | [`StructureSolver`]: the steps, the nonlinear system, what to read off |
 //!
-//! Nodes are the control points of a patch or the nodes of a mesh. Fields over them are flat, `node * D + c`; those over
+//! Nodes are the control points of a patch, those on a seam joined, or the nodes of a mesh. Fields over them are flat, `node * D + c`; those over
 //! the interface `point * D + c`, in the order of [`StructureSolver::interface_points`]. Units are SI; in the plane, forces and energies are per metre
 //! of depth.
 
@@ -29,10 +30,13 @@ pub mod kernel;
 pub mod load;
 pub mod material;
 pub mod model;
+pub mod patch;
+pub mod rigid;
 pub mod solver;
 pub mod space;
 pub mod state;
 pub mod step;
+pub mod support;
 
 mod assembly;
 mod factor;
@@ -50,8 +54,10 @@ pub use load::{BodyForce, VectorField};
 pub use material::{Law, Material, MaterialError, Plane, Response, ResponseError};
 pub use model::{LineSearch, Part, Rayleigh, StructureModel, StructureSettings};
 pub use modes::Mode;
+pub use patch::Patch;
 pub use solver::StructureSolver;
 pub use space::Space;
 pub use state::StructureState;
 pub use step::TimeScheme;
+pub use support::Held;
 pub use worst::WorstEquation;

@@ -8,6 +8,7 @@ use crate::error::StructureError;
 use crate::load::BodyForce;
 use crate::material::{Material, Plane};
 use crate::step::TimeScheme;
+use crate::support::Held;
 
 /// Properties, loads and supports of a structure.
 #[derive(Debug, Clone)]
@@ -20,6 +21,8 @@ pub struct StructureModel<const D: usize> {
     pub body_force: BodyForce<D>,
     /// Parts of the boundary whose nodes do not move: sides of a patch, groups of a mesh.
     pub clamped: Boundary,
+    /// Parts of the boundary whose nodes move in some directions only.
+    pub held: Vec<Held<D>>,
     /// Parts of the boundary that form the interface.
     pub wetted: Boundary,
 }
@@ -90,6 +93,13 @@ pub struct LineSearch {
     pub tolerance: f64,
     /// At most so many residuals an iteration.
     pub max_evaluations: usize,
+}
+
+impl Default for LineSearch {
+    /// To 0.8 of the work at the start, with at most ten residuals.
+    fn default() -> Self {
+        Self { tolerance: 0.8, max_evaluations: 10 }
+    }
 }
 
 /// Unknowns that are judged together.

@@ -37,7 +37,7 @@ impl<const D: usize> StructureSolver<D> {
         self.assembly.kinetic_energy(&self.trial.velocity)
     }
 
-    /// Force `[N, in 2D N/m]` that the support of clamped parts of the boundary exerts on the structure, at
+    /// Force `[N, in 2D N/m]` that the supports of some parts of the boundary exert on the structure, at
     /// `n+1-alpha_f`.
     ///
     /// It is the sum of the residual, as last assembled, over the nodes of the parts; on parts that are free this is

@@ -22,7 +22,7 @@ use crate::step::{Scheme, Step};
 /// R = M a_{n+1-alpha_m} + C v_{n+1-alpha_f} + f_int(d_{n+1-alpha_f}) - f_ext_{n+1-alpha_f}
 /// ```
 ///
-/// is kept on all dofs, those of clamped control points included: there it holds the reactions. A step starts from
+/// is kept on all dofs, those of supports included: there it holds the reactions. A step starts from
 /// `d_n`. The caller composes it from [`begin_step`](Self::begin_step), [`impose`](Self::impose),
 /// [`newton::solve`] and [`commit`](Self::commit) or [`rewind`](Self::rewind); a structure alone takes
 /// [`advance`](Self::advance).
@@ -38,10 +38,11 @@ use crate::step::{Scheme, Step};
 ///     material: Material::new(Law::StVenantKirchhoff, 1e7, 0.3, Plane::Strain)?,
 ///     body_force: BodyForce::Constant([0.0, -9.81e3]),
 ///     clamped: Side::LEFT.into(),
+///     held: Vec::new(),
 ///     wetted: Boundary::NONE,
 /// };
 /// let settings = StructureSettings { time: TimeScheme::QuasiStatic, ..Default::default() };
-/// let mut cantilever = StructureSolver::new(Space::Patch(patch), model, settings)?;
+/// let mut cantilever = StructureSolver::new(patch.into(), model, settings)?;
 /// let report = cantilever.advance(1.0, 1.0)?;
 /// assert!(report.converged);
 ///
@@ -99,12 +100,12 @@ impl<const D: usize> StructureSolver<D> {
         model.check()?;
         settings.check()?;
         let scheme = settings.time.coefficients()?;
-        let clamped = space.nodes_of(&model.clamped)?;
+        let held = space.held_dofs(&model.clamped, &model.held)?;
         let mut interface_points = space.nodes_of(&model.wetted)?;
-        interface_points.retain(|point| clamped.binary_search(point).is_err());
+        interface_points.retain(|point| !held[point * D..][..D].iter().all(|held| *held));
         let elements = space.elements()?;
 
-        let dofs = DofMap::new(&prescribed_dofs::<D>(space.node_count(), &clamped));
+        let dofs = DofMap::new(&held);
         if dofs.free_count() == 0 {
             return Err(StructureError::NothingFree);
         }
@@ -140,7 +141,8 @@ impl<const D: usize> StructureSolver<D> {
         })
     }
 
-    /// Nodes (control points of a patch) on the wetted parts that can move, ascending, those at corners once.
+    /// Nodes on the wetted parts that can move in a direction at least, ascending, those at corners once. A component
+    /// that is held stays zero.
     #[must_use]
     pub fn interface_points(&self) -> &[usize] {
         self.loads.interface_points()
@@ -239,8 +241,8 @@ impl<const D: usize> StructureSolver<D> {
         Ok(())
     }
 
-    /// Moves the trial state to another displacement before a Newton iteration: a guess from a predictor, say. Clamped
-    /// control points stay where they are.
+    /// Moves the trial state to another displacement before a Newton iteration: a guess from a predictor, say. What is
+    /// held stays where it is.
     ///
     /// # Panics
     /// When `displacement` does not have one value a dof.
@@ -277,7 +279,7 @@ impl<const D: usize> StructureSolver<D> {
         self.load_resolution = resolution;
     }
 
-    /// The residual R `[N, in 2D N/m]` of the last assembly on all dofs; in clamped rows it holds the reactions.
+    /// The residual R `[N, in 2D N/m]` of the last assembly on all dofs; in the rows of supports it holds the reactions.
     #[must_use]
     pub fn residual(&self) -> &[f64] {
         &self.work.residual
@@ -326,9 +328,19 @@ impl<const D: usize> StructureSolver<D> {
     #[must_use]
     pub fn spline(&self) -> &Spline<D> {
         match &self.space {
-            Space::Patch(spline) => spline,
+            Space::Patch(patch) => patch.spline(),
             Space::Lagrange(_) => panic!("the structure lives on a mesh, not on a patch"),
         }
+    }
+
+    /// Whether a support keeps this component of a node at zero.
+    ///
+    /// # Panics
+    /// When there is no such node or component.
+    #[must_use]
+    pub fn is_held(&self, node: usize, component: usize) -> bool {
+        assert!(component < D, "there is no component {component} in {D} dimensions");
+        !self.assembly.dofs().is_free(node * D + component)
     }
 
     /// Properties, loads and supports.
@@ -422,12 +434,4 @@ impl<const D: usize> Work<D> {
 /// A solution that is none, found in the last iteration.
 fn folded(report: &Report, source: StructureError) -> Failure<StructureError> {
     Failure::Problem { iteration: report.iterations, source }
-}
-
-fn prescribed_dofs<const D: usize>(nodes: usize, clamped: &[usize]) -> Vec<bool> {
-    let mut prescribed = vec![false; nodes * D];
-    for &node in clamped {
-        prescribed[node * D..][..D].fill(true);
-    }
-    prescribed
 }

@@ -1,6 +1,6 @@
 //! Where displacements live: the geometry, its shape functions and their quadrature.
 
-use partita_iga::{BasisValues, Derivatives, Element, Side, Spline};
+use partita_iga::{BasisValues, Derivatives, Element, Spline};
 use partita_mesh::SolidMesh;
 use partita_mesh::solid::{CellMap, reference};
 use partita_numerics::{gauss, small};
@@ -8,15 +8,28 @@ use partita_numerics::{gauss, small};
 use crate::boundary::Boundary;
 use crate::elements::Elements;
 use crate::error::StructureError;
+use crate::patch::Patch;
 use crate::tensor;
 
 /// The space of displacements together with the reference configuration.
 #[derive(Debug, Clone)]
 pub enum Space<const D: usize> {
     /// One NURBS patch: the shape functions of the geometry carry the displacement (isogeometric analysis).
-    Patch(Spline<D>),
+    Patch(Patch<D>),
     /// A mesh of isoparametric Lagrange elements: plane triangles and quadrilaterals of degree 1 and 2.
     Lagrange(SolidMesh<D>),
+}
+
+impl<const D: usize> From<Spline<D>> for Space<D> {
+    fn from(spline: Spline<D>) -> Self {
+        Self::Patch(spline.into())
+    }
+}
+
+impl<const D: usize> From<SolidMesh<D>> for Space<D> {
+    fn from(mesh: SolidMesh<D>) -> Self {
+        Self::Lagrange(mesh)
+    }
 }
 
 impl<const D: usize> Space<D> {
@@ -24,7 +37,7 @@ impl<const D: usize> Space<D> {
     #[must_use]
     pub fn points(&self) -> &[[f64; D]] {
         match self {
-            Self::Patch(spline) => spline.control_points(),
+            Self::Patch(patch) => patch.points(),
             Self::Lagrange(mesh) => mesh.points(),
         }
     }
@@ -38,13 +51,13 @@ impl<const D: usize> Space<D> {
     /// Nodes of some parts of the boundary, ascending, those on more than one part once.
     ///
     /// # Errors
-    /// When the space has no such part: a patch has sides, a mesh its groups.
+    /// When the space has no such part: a patch has sides, those that a seam joins excepted, a mesh its groups.
     pub fn nodes_of(&self, parts: &Boundary) -> Result<Vec<usize>, StructureError> {
         let mut nodes = Vec::new();
         match (self, parts) {
-            (Self::Patch(spline), Boundary::Sides(sides)) => {
+            (Self::Patch(patch), Boundary::Sides(sides)) => {
                 for &side in sides {
-                    nodes.extend(side_nodes(spline, side)?);
+                    nodes.extend(patch.side_nodes(side)?);
                 }
             }
             (Self::Lagrange(mesh), Boundary::Groups(groups)) => {
@@ -76,11 +89,7 @@ impl<const D: usize> Space<D> {
     #[must_use]
     pub fn evaluate(&self, at: &[f64], field: &[[f64; D]]) -> Option<[f64; D]> {
         match self {
-            Self::Patch(spline) => {
-                let mut basis = BasisValues::new(spline);
-                spline.basis(at, Derivatives::None, &mut basis);
-                Some(basis.value_of(field))
-            }
+            Self::Patch(patch) => Some(patch.evaluate(at, field)),
             Self::Lagrange(mesh) => {
                 let place = at.try_into().expect("a place has one coordinate a dimension");
                 mesh.locate(place).map(|location| mesh.evaluate(location, field))
@@ -95,14 +104,10 @@ impl<const D: usize> Space<D> {
     /// When the patch is no solid, or its map is not invertible at a quadrature point.
     pub fn elements(&self) -> Result<Elements<D>, StructureError> {
         match self {
-            Self::Patch(spline) => tabulate_patch(spline),
+            Self::Patch(patch) => tabulate_patch(patch),
             Self::Lagrange(mesh) => tabulate_mesh(mesh),
         }
     }
-}
-
-fn side_nodes<const D: usize>(spline: &Spline<D>, side: Side) -> Result<Vec<usize>, StructureError> {
-    if spline.has_side(side) { Ok(spline.side(side).1) } else { Err(StructureError::NoSuchSide { side }) }
 }
 
 fn group_nodes<const D: usize>(mesh: &SolidMesh<D>, group: &str) -> Result<Vec<usize>, StructureError> {
@@ -136,7 +141,8 @@ fn tabulate_mesh<const D: usize>(mesh: &SolidMesh<D>) -> Result<Elements<D>, Str
     Ok(elements)
 }
 
-fn tabulate_patch<const D: usize>(spline: &Spline<D>) -> Result<Elements<D>, StructureError> {
+fn tabulate_patch<const D: usize>(patch: &Patch<D>) -> Result<Elements<D>, StructureError> {
+    let spline = patch.spline();
     if spline.parameters() != D {
         return Err(StructureError::NotASolid { parameters: spline.parameters(), dimensions: D });
     }
@@ -144,7 +150,7 @@ fn tabulate_patch<const D: usize>(spline: &Spline<D>) -> Result<Elements<D>, Str
     let mut basis = BasisValues::new(spline);
     let mut elements = Elements::with_capacity(spline.element_count(), spline.active_count(), rule.len());
     for element in spline.elements() {
-        elements.push_element(&spline.active_on(element.index()));
+        elements.push_element(&patch.nodes_of(&spline.active_on(element.index())));
         for &(unit, weight) in &rule {
             let xi: [f64; D] = element.at(unit);
             spline.basis_on(element.index(), &xi, Derivatives::First, &mut basis);

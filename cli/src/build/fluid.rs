@@ -1,8 +1,8 @@
 //! The scene's fluid in the words of the fluid crate.
 
-use partita_fluid::FluidSolver;
 use partita_fluid::model::{BodyForce, BoundaryCondition, FluidModel, InitialState};
 use partita_fluid::settings::{FluidSettings, PressurePin, Tangent, TimeScheme};
+use partita_fluid::{FluidSolver, holding_conditions};
 use partita_mesh::Mesh;
 use partita_mesh::motion::{MotionLaw, MotionMode, MotionSettings};
 use partita_numerics::time::BdfOrder;
@@ -62,7 +62,7 @@ fn boundary(condition: &schema::Condition, moves: bool) -> BoundaryCondition<2> 
     }
 }
 
-fn settings(fluid: &schema::Fluid, mesh: &Mesh<2>, threads: usize) -> FluidSettings {
+pub(super) fn settings(fluid: &schema::Fluid, mesh: &Mesh<2>, threads: usize) -> FluidSettings {
     FluidSettings {
         time: match fluid.time_scheme {
             schema::FluidTimeScheme::Bdf1 => TimeScheme::Bdf(BdfOrder::One),
@@ -88,7 +88,7 @@ fn settings(fluid: &schema::Fluid, mesh: &Mesh<2>, threads: usize) -> FluidSetti
     }
 }
 
-fn motion(motion: &schema::MeshMotion) -> MotionSettings {
+pub(super) fn motion(motion: &schema::MeshMotion) -> MotionSettings {
     MotionSettings {
         law: match motion.law {
             schema::MotionLaw::Elastic { poisson_ratio, stiffening } => {
@@ -103,6 +103,11 @@ fn motion(motion: &schema::MeshMotion) -> MotionSettings {
             schema::MotionMode::Incremental => MotionMode::Incremental,
         },
     }
+}
+
+/// For each node of `mesh` the condition that holds its velocity, by its place in the scene's order.
+pub(crate) fn holders(fluid: &schema::Fluid, mesh: &Mesh<2>, moves: bool) -> Vec<Option<usize>> {
+    holding_conditions(mesh, &model(fluid, moves))
 }
 
 /// The node of `mesh` closest to `point`; of several the one with the smallest number.

@@ -9,8 +9,9 @@ use super::BuildError;
 
 /// The transfer `d_f = H x`, `F = H^T f`, with the rows `R_a(xi_i)` of the fluid's interface nodes.
 ///
-/// Columns of clamped nodes are left out: their displacement is zero, and what the fluid puts on them goes
-/// into the clamp. A fluid node that lies on clamped ones alone has an empty row.
+/// Columns of nodes that do not move at all are left out: their displacement is zero, and what the fluid puts on them goes
+/// into the support. A fluid node that lies on such nodes alone has an empty row. A node that moves in one direction has its
+/// column; the component that is held stays zero, and its force goes into the support.
 ///
 /// # Errors
 /// When a fluid node lies farther from the wetted sides than `tolerance` times the interface's extent.

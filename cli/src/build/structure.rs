@@ -2,7 +2,7 @@
 
 use partita_iga::{Side, project};
 use partita_structure::{
-    BodyForce, Boundary, Law, LineSearch, Material, Plane, Rayleigh, Space, StructureModel,
+    BodyForce, Boundary, Held, Law, LineSearch, Material, Plane, Rayleigh, Space, StructureModel,
     StructureSettings, StructureSolver, TimeScheme,
 };
 
@@ -17,14 +17,20 @@ pub(super) fn solver(
     structure: &schema::Structure,
     space: Space<2>,
 ) -> Result<StructureSolver<2>, BuildError> {
+    let (clamped, held) = supports(&space, structure);
     let model = StructureModel {
         density: structure.density.get(),
         material: material(&structure.material)?,
         body_force: body_force(&structure.body_force),
-        clamped: boundary(&space, &structure.clamped),
+        clamped,
+        held,
         wetted: boundary(&space, &structure.wetted),
     };
-    let settings = StructureSettings {
+    Ok(StructureSolver::new(space, model, settings(structure))?)
+}
+
+pub(super) fn settings(structure: &schema::Structure) -> StructureSettings {
+    StructureSettings {
         time: match structure.time_scheme {
             schema::StructureTimeScheme::GeneralizedAlpha { spectral_radius } => {
                 TimeScheme::GeneralizedAlpha { spectral_radius: spectral_radius.get() }
@@ -42,11 +48,10 @@ pub(super) fn solver(
             tolerance: search.tolerance.get(),
             max_evaluations: search.max_evaluations.get(),
         }),
-    };
-    Ok(StructureSolver::new(space, model, settings)?)
+    }
 }
 
-fn material(material: &schema::Material) -> Result<Material, BuildError> {
+pub(super) fn material(material: &schema::Material) -> Result<Material, BuildError> {
     let (law, elastic) = match material {
         schema::Material::SaintVenantKirchhoff(elastic) => (Law::StVenantKirchhoff, elastic),
         schema::Material::NeoHookean(elastic) => (Law::NeoHookean, elastic),
@@ -70,10 +75,24 @@ fn body_force(formula: &schema::VectorFormula) -> BodyForce<2> {
 
 /// Parts of the boundary of a space by the names a scene has for them.
 pub(crate) fn boundary(space: &Space<2>, parts: &[schema::Part]) -> Boundary {
+    named(space, parts.iter().map(schema::Part::name))
+}
+
+fn named<'a>(space: &Space<2>, names: impl Iterator<Item = &'a str>) -> Boundary {
     match space {
-        Space::Patch(_) => parts.iter().filter_map(|part| side(part.name())).collect(),
-        Space::Lagrange(_) => parts.iter().map(|part| part.name().to_owned()).collect(),
+        Space::Patch(_) => names.filter_map(side).collect(),
+        Space::Lagrange(_) => names.map(str::to_owned).collect(),
     }
+}
+
+/// What a scene clamps, and what it holds in some directions.
+pub(crate) fn supports(space: &Space<2>, structure: &schema::Structure) -> (Boundary, Vec<Held<2>>) {
+    let held = |(part, held): (&String, &Vec<schema::Component>)| {
+        let mut components = [false; 2];
+        held.iter().for_each(|component| components[component.index()] = true);
+        Held { parts: named(space, std::iter::once(part.as_str())), components }
+    };
+    (boundary(space, &structure.clamped), structure.held.iter().map(held).collect())
 }
 
 /// A point off a patch by less than this part of its size is taken to be on it.
@@ -83,7 +102,8 @@ const ON_PATCH: f64 = 1e-6;
 /// itself in a mesh. `None` outside of it.
 pub(crate) fn place_in(space: &Space<2>, point: [f64; 2]) -> Option<[f64; 2]> {
     match space {
-        Space::Patch(spline) => {
+        Space::Patch(patch) => {
+            let spline = patch.spline();
             let nearest = project::closest_point(spline, &point);
             let [low, high] = spline.bounding_box();
             let size = (high[0] - low[0]).hypot(high[1] - low[1]);
@@ -94,6 +114,6 @@ pub(crate) fn place_in(space: &Space<2>, point: [f64; 2]) -> Option<[f64; 2]> {
 }
 
 /// A side of a patch by its name; a scene that names another one has been refused.
-fn side(name: &str) -> Option<Side> {
+pub(crate) fn side(name: &str) -> Option<Side> {
     [Side::LEFT, Side::RIGHT, Side::BOTTOM, Side::TOP].into_iter().find(|side| side.to_string() == name)
 }

@@ -79,6 +79,7 @@ impl Sources {
 }
 
 /// The merged table.
+#[derive(Clone)]
 pub(super) struct Document<'a> {
     root: Spanned<DeTable<'a>>,
 }
@@ -93,6 +94,16 @@ pub(super) struct Entry {
 impl<'a> Document<'a> {
     pub(super) fn table(&self) -> &Spanned<DeTable<'a>> {
         &self.root
+    }
+
+    /// The table at a path, if there is one.
+    pub(super) fn table_at(&mut self, path: &[String]) -> Option<&mut DeTable<'a>> {
+        let mut table = self.root.get_mut();
+        for name in path {
+            let DeValue::Table(inner) = table.get_mut(name.as_str())?.get_mut() else { return None };
+            table = inner;
+        }
+        Some(table)
     }
 
     /// The entry at a path, or its nearest ancestor that is written down.
@@ -144,7 +155,7 @@ impl<'a> Document<'a> {
 
     /// Writes `aitken = {}` for the bare word `"aitken"` wherever one of several choices is named, so that a
     /// choice that needs nothing else needs no table.
-    fn spell_out_choices(&mut self) {
+    pub(super) fn spell_out_choices(&mut self) {
         for choice in schema::CHOICES {
             let steps: Vec<&str> = choice.split('.').collect();
             each_at(self.root.get_mut(), &steps, &mut spell_out);

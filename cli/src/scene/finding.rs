@@ -39,6 +39,11 @@ impl Finding {
         }
     }
 
+    /// Points at a place, if it is known and nothing is pointed at yet.
+    pub(super) fn mark_unless(self, place: Option<Range<usize>>, label: impl Into<String>) -> Self {
+        if self.marks.is_empty() { self.mark_if(place, label) } else { self }
+    }
+
     pub(super) fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = hint.into();
         self

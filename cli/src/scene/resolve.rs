@@ -112,14 +112,18 @@ fn resolve<T>(
     })
 }
 
-/// Everything that can be checked without another file.
+/// Everything that can be checked without another file. Where the scene as a whole can still be judged in spite of single
+/// mistakes, what does not fit together is found with them.
 fn check(sources: &Sources) -> Result<(Scene, Document<'_>), Vec<Finding>> {
     let document = sources.merge().map_err(|finding| vec![finding])?;
-    let scene = read(&document, sources).map_err(|finding| vec![finding])?;
-    let mut findings = Check::new(&document);
-    validate(&mut findings, &scene);
-    findings.done(())?;
-    Ok((scene, document))
+    let Reading { scene, findings, is_whole } = read(&document, sources);
+    let mut all = Check::new(&document);
+    if let Some(scene) = scene.as_ref().filter(|_| is_whole) {
+        validate(&mut all, scene);
+    }
+    findings.into_iter().for_each(|finding| all.add(finding));
+    all.done(())?;
+    Ok((scene.expect("a document without findings was read"), document))
 }
 
 fn read_override(given: &str) -> Result<Override, SceneError> {
@@ -148,42 +152,66 @@ fn rivals(overrides: &[Override]) -> Option<SceneError> {
     })
 }
 
-fn read(document: &Document<'_>, sources: &Sources) -> Result<Scene, Finding> {
-    let table = document.table().clone();
-    let scene = Scene::deserialize(toml::Deserializer::from(table))
-        .map_err(|error| translate(&error, document, sources))?;
-    match lost(document.table().get_ref(), &write::table_of(&scene), &mut Vec::new()) {
-        Some(finding) => Err(finding),
-        None => Ok(scene),
-    }
+/// What was read of a document.
+struct Reading {
+    /// The scene, with something else in the place of each mistake.
+    scene: Option<Scene>,
+    findings: Vec<Finding>,
+    /// Whether no mistake changes what the parts of the scene are.
+    is_whole: bool,
 }
 
-/// Something that is written but was not read: serde takes a list for a table, and the first two of three
-/// components, without a word.
-fn lost(written: &DeTable<'_>, read: &Table, path: &mut Vec<String>) -> Option<Finding> {
+/// Mistakes that are shown at once; beyond them nobody reads on.
+const MOST_FINDINGS: usize = 30;
+
+/// Reads a document; each mistake is repaired in a copy of it, to find the next.
+fn read(document: &Document<'_>, sources: &Sources) -> Reading {
+    let mut draft = document.clone();
+    let (mut findings, mut is_whole) = (Vec::new(), true);
+    while findings.len() < MOST_FINDINGS {
+        let table = draft.table().clone();
+        match Scene::deserialize(toml::Deserializer::from(table)) {
+            Ok(scene) => {
+                lost(draft.table().get_ref(), &write::table_of(&scene), &mut Vec::new(), &mut findings);
+                return Reading { scene: Some(scene), findings, is_whole };
+            }
+            Err(error) => {
+                let (finding, repair) = translate(&error, &draft, sources);
+                if findings.contains(&finding) {
+                    break;
+                }
+                findings.push(finding);
+                is_whole &= repair.keeps_the_meaning();
+                repair.apply(&mut draft);
+            }
+        }
+    }
+    Reading { scene: None, findings, is_whole }
+}
+
+/// What is written but was not read: serde takes a list for a table, and the first two of three components, without a
+/// word.
+fn lost(written: &DeTable<'_>, read: &Table, path: &mut Vec<String>, findings: &mut Vec<Finding>) {
     for (key, value) in written {
         path.push(key.get_ref().to_string());
         let name = || path.join(".");
-        let finding = match (value.get_ref(), read.get(key.get_ref().as_ref())) {
-            (DeValue::Table(written), Some(Value::Table(read))) => lost(written, read, path),
-            (DeValue::Array(_), Some(Value::Table(_))) => Some(
+        match (value.get_ref(), read.get(key.get_ref().as_ref())) {
+            (DeValue::Table(written), Some(Value::Table(read))) => lost(written, read, path, findings),
+            (DeValue::Array(_), Some(Value::Table(_))) => findings.push(
                 Finding::new(format!("{} should be a table", name()))
                     .mark(value.span(), "not a table")
                     .hint(format!("write a table [{}] with one `key = value` a line", name())),
             ),
-            (DeValue::Array(written), Some(Value::Array(read))) if written.len() != read.len() => Some(
-                Finding::new(format!("{} should be a list of {} entries", name(), read.len()))
-                    .mark(value.span(), format!("a list of {}", written.len()))
-                    .hint(format!("leave {} entries", read.len())),
-            ),
-            _ => None,
-        };
-        if finding.is_some() {
-            return finding;
+            (DeValue::Array(written), Some(Value::Array(read))) if written.len() != read.len() => findings
+                .push(
+                    Finding::new(format!("{} should be a list of {} entries", name(), read.len()))
+                        .mark(value.span(), format!("a list of {}", written.len()))
+                        .hint(format!("leave {} entries", read.len())),
+                ),
+            _ => {}
         }
         path.pop();
     }
-    None
 }
 
 fn name_of(file: &Path) -> String {

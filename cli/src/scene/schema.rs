@@ -41,7 +41,9 @@ pub use numbers::{
     Relaxation, SpectralRadius,
 };
 pub use output::{Known, Line, Output, Probe};
-pub use structure::{Elastic, Material, Part, Plane, RayleighDamping, Structure, StructureTimeScheme};
+pub use structure::{
+    Component, Elastic, Material, Part, Plane, RayleighDamping, Structure, StructureTimeScheme,
+};
 pub use warnings::{Reason, Warnings};
 
 /// A whole scene: a fluid, a structure, or both coupled.

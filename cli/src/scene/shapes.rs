@@ -1,5 +1,6 @@
 //! What a scene is made of in space: the fluid's mesh and the structure's patch or mesh, made or read once.
 
+mod content;
 mod fluid;
 mod read;
 mod structure;
@@ -12,6 +13,7 @@ use partita_structure::Space;
 use super::schema::{FileName, FluidMesh, Geometry, Scene};
 use super::validate::Check;
 
+pub(crate) use content::{Content, Role};
 pub(crate) use read::Input;
 
 /// The fluid's mesh and the structure's patch or mesh, as far as the scene has them.
@@ -21,6 +23,10 @@ pub struct Shapes {
     pub fluid: Option<Mesh<2>>,
     /// The structure before it deforms.
     pub structure: Option<Space<2>>,
+    /// What the file of the fluid's mesh holds.
+    pub(crate) fluid_file: Option<Content>,
+    /// What the file of the structure's mesh holds.
+    pub(crate) structure_file: Option<Content>,
     /// The files that were read for them.
     pub(crate) inputs: Vec<Input>,
 }
@@ -30,10 +36,10 @@ impl Shapes {
     pub(super) fn make(scene: &Scene, folder: &Path, check: &mut Check<'_>) -> Self {
         let mut shapes = Self::default();
         if let Some(scene) = &scene.fluid {
-            shapes.fluid = fluid::mesh(&scene.mesh, folder, &mut shapes.inputs, check);
+            shapes.fluid = fluid::mesh(&scene.mesh, folder, &mut shapes, check);
         }
         if let Some(scene) = &scene.structure {
-            shapes.structure = structure::space(&scene.geometry, folder, &mut shapes.inputs, check);
+            shapes.structure = structure::space(&scene.geometry, folder, &mut shapes, check);
         }
         shapes
     }

@@ -4,12 +4,17 @@ use std::ops::Range;
 
 use super::document::{Document, Sources};
 use super::finding::Finding;
+use super::repair::Repair;
 use super::{reference, schema};
 use crate::expression::Expression;
 use crate::nearest::nearest;
 
-/// What a deserialization error means in this scene.
-pub(super) fn translate(error: &toml::de::Error, document: &Document<'_>, sources: &Sources) -> Finding {
+/// What a deserialization error means in this scene, and what lets the rest be read.
+pub(super) fn translate(
+    error: &toml::de::Error,
+    document: &Document<'_>,
+    sources: &Sources,
+) -> (Finding, Repair) {
     let place = error.span().unwrap_or(0..0);
     let mut context = Context { text: sources.text_at(&place), path: document.path_to(&place), place };
     let message = error.message();
@@ -33,13 +38,14 @@ pub(super) fn translate(error: &toml::de::Error, document: &Document<'_>, source
     }
     document.follow_choice(&mut context.path, &mut context.place);
     context.text = sources.text_at(&context.place);
+    let repair = Repair::Replace { path: context.path.clone() };
     if let Some(wanted) = message.strip_prefix("invalid ").and_then(|m| m.rsplit_once(", expected ")) {
-        return context.wrong_kind(wanted.1);
+        return (context.wrong_kind(wanted.1), repair);
     }
     if message == "wanted string or table" {
-        return context.wrong_kind("the name of a choice, or a table with that name");
+        return (context.wrong_kind("the name of a choice, or a table with that name"), repair);
     }
-    context.out_of_range(message)
+    (context.out_of_range(message), repair)
 }
 
 /// Where an error stands.
@@ -50,30 +56,36 @@ struct Context<'a> {
 }
 
 impl Context<'_> {
-    fn unknown_key(self, key: &str, known: &[&str]) -> Finding {
+    fn unknown_key(self, key: &str, known: &[&str]) -> (Finding, Repair) {
+        let near = nearest(key, known.iter().copied());
+        let repair = Repair::Rename { path: self.path.clone(), to: near.map(str::to_owned) };
         let table = table(self.path.split_last().map_or(&[], |(_, parents)| parents));
         let homes = reference::homes_of(key);
-        let hint = match nearest(key, known.iter().copied()) {
+        let hint = match near {
             Some(near) => format!("did you mean `{near}`?"),
             None if !homes.is_empty() => format!("`{key}` is a key of {}", homes.join(", ")),
             None => format!("keys of {table}: {}", known.join(", ")),
         };
-        Finding::new(format!("`{key}` is not a key of {table}")).mark(self.place, "unknown key").hint(hint)
+        let finding = Finding::new(format!("`{key}` is not a key of {table}"));
+        (finding.mark(self.place, "unknown key").hint(hint), repair)
     }
 
-    fn unknown_choice(self, name: &str, known: &[&str]) -> Finding {
+    fn unknown_choice(self, name: &str, known: &[&str]) -> (Finding, Repair) {
         let place =
             self.path.split_last().filter(|(last, _)| *last == name).map_or(&self.path[..], |(_, rest)| rest);
-        let hint = match nearest(name, known.iter().copied()) {
+        let near = nearest(name, known.iter().copied());
+        let hint = match near {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("choices: {}", known.join(", ")),
         };
-        Finding::new(format!("{} cannot be `{name}`", place.join(".")))
+        let repair = Repair::Choose { path: place.to_vec(), to: near.map(str::to_owned) };
+        let finding = Finding::new(format!("{} cannot be `{name}`", place.join(".")))
             .mark(self.place, "unknown choice")
-            .hint(hint)
+            .hint(hint);
+        (finding, repair)
     }
 
-    fn missing(self, key: &str) -> Finding {
+    fn missing(self, key: &str) -> (Finding, Repair) {
         let path: Vec<String> = self.path.iter().cloned().chain([key.to_owned()]).collect();
         let choices = reference::choices(&path);
         let name = path.join(".");
@@ -82,25 +94,29 @@ impl Context<'_> {
         } else {
             format!("choose `{name}`, it has no default: {}", choices.join(", "))
         };
-        Finding::new(format!("{} lacks `{key}`", table(&self.path)))
+        let finding = Finding::new(format!("{} lacks `{key}`", table(&self.path)))
             .mark(self.place, format!("`{key}` is missing here"))
-            .hint(explained(set, &path))
+            .hint(explained(set, &path));
+        (finding, Repair::Replace { path })
     }
 
-    fn not_one_choice(self, document: &Document<'_>) -> Finding {
+    fn not_one_choice(self, document: &Document<'_>) -> (Finding, Repair) {
         let length = (0..=self.path.len()).find(|&length| schema::is_choice(&self.path[..length]));
         let path = &self.path[..length.unwrap_or(self.path.len())];
         let name = path.join(".");
+        let repair = Repair::Choose { path: path.to_vec(), to: None };
         let chosen = document.keys(path);
         let choices = reference::choices(path).join(", ");
         if chosen.is_empty() {
-            return Finding::new(format!("{name} names no choice"))
+            let finding = Finding::new(format!("{name} names no choice"))
                 .mark(self.place, "empty")
                 .hint(format!("choose one of {choices}"));
+            return (finding, repair);
         }
         let finding = Finding::new(format!("{name} names {} choices", chosen.len()))
             .hint(format!("keep one; known are {choices}"));
-        chosen.into_iter().fold(finding, |finding, (key, place)| finding.mark(place, format!("`{key}`")))
+        let mark = |finding: Finding, (key, place)| finding.mark(place, format!("`{key}`"));
+        (chosen.into_iter().fold(finding, mark), repair)
     }
 
     fn wrong_kind(self, wanted: &str) -> Finding {

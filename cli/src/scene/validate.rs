@@ -2,6 +2,7 @@
 
 mod fields;
 mod fluid;
+mod formulas;
 mod groups;
 mod interface;
 mod mesh;
@@ -47,12 +48,15 @@ fn warnings(check: &mut Check<'_>, scene: &Scene) {
 /// What does not fit the shapes, or does not fit between them.
 pub(super) fn validate_shapes(check: &mut Check<'_>, scene: &Scene, shapes: &Shapes) {
     if let (Some(fluid), Some(mesh)) = (&scene.fluid, &shapes.fluid) {
-        mesh::check(check, scene, fluid, mesh);
+        mesh::check(check, scene, fluid, mesh, shapes.fluid_file.as_ref());
     }
     if let (Some(structure), Some(space)) = (&scene.structure, &shapes.structure) {
-        solid::check(check, scene, structure, space);
+        solid::check(check, scene, structure, space, shapes.structure_file.as_ref());
     }
     interface::check(check, scene, shapes);
+    if check.is_sound() {
+        formulas::check(check, scene, shapes);
+    }
 }
 
 /// The findings so far, and the places they can point at.
@@ -73,6 +77,11 @@ impl<'a> Check<'a> {
         }
         self.findings.sort_by_key(|finding| finding.marks.first().map(|(place, _)| place.start));
         Err(self.findings)
+    }
+
+    /// Whether nothing was found so far.
+    fn is_sound(&self) -> bool {
+        self.findings.is_empty()
     }
 
     pub(super) fn add(&mut self, finding: Finding) {

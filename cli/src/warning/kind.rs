@@ -5,6 +5,8 @@
 pub enum Kind {
     /// A piece of the structure is not held.
     FreeStructure,
+    /// The ends of a ring almost meet.
+    OpenSeam,
     /// The structure pulls the corner of a fixed wall along.
     DraggedCorner,
     /// A wall jumps, or starts at full speed.
@@ -33,8 +35,9 @@ pub enum Kind {
 
 impl Kind {
     /// All of them, in the order of the docs.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::FreeStructure,
+        Self::OpenSeam,
         Self::DraggedCorner,
         Self::MotionJump,
         Self::UndampedStructure,
@@ -54,6 +57,7 @@ impl Kind {
     pub const fn name(self) -> &'static str {
         match self {
             Self::FreeStructure => "free_structure",
+            Self::OpenSeam => "open_seam",
             Self::DraggedCorner => "dragged_corner",
             Self::MotionJump => "motion_jump",
             Self::UndampedStructure => "undamped_structure",
@@ -74,6 +78,9 @@ impl Kind {
     pub const fn meaning(self) -> &'static str {
         match self {
             Self::FreeStructure => "The structure, or a piece of it, can move freely as a rigid body.",
+            Self::OpenSeam => {
+                "Opposite sides of the structure's patch almost touch, within a thousandth of the way round, and are not joined."
+            }
             Self::DraggedCorner => {
                 "A fixed wall of the fluid ends at the interface, and the structure moves that corner off the wall."
             }

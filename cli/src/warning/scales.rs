@@ -5,22 +5,8 @@ use partita_mesh::{Mesh, quality};
 
 use crate::build::Run;
 use crate::scene::Resolved;
-use crate::scene::schema::{Condition, Fluid, Initial, Time, VectorFormula};
-
-/// Times between the first and the last step at which formulas are sampled.
-const SAMPLES: usize = 40;
-
-/// Times `[s]` of a run at which formulas are looked at: its first three steps, its last one, and samples between, all of
-/// them on the grid of its steps.
-pub(crate) fn times(time: &Time) -> Vec<f64> {
-    let (steps, dt) = (time.steps.get(), time.step.get());
-    let between = (1..SAMPLES).map(|k| (k as f64 / SAMPLES as f64 * steps as f64).round() as usize);
-    let mut indices: Vec<usize> = [1, 2, 3].into_iter().chain(between).chain([steps]).collect();
-    indices.retain(|index| (1..=steps).contains(index));
-    indices.sort_unstable();
-    indices.dedup();
-    indices.into_iter().map(|index| index as f64 * dt).collect()
-}
+use crate::scene::formulas::times;
+use crate::scene::schema::{Condition, Fluid, Initial, VectorFormula};
 
 /// What is known about a flow before it is solved.
 pub(super) struct FlowScales {

@@ -2,8 +2,9 @@
 
 use partita_structure::StructureSolver;
 
-use super::scales::{FlowScales, extents, largest, most, times};
+use super::scales::{FlowScales, extents, largest, most};
 use super::{Found, Kind};
+use crate::scene::formulas::times;
 use crate::scene::schema::{Elastic, Material, Structure, StructureTimeScheme};
 
 /// Largest spectral radius, and smallest gamma of Newmark's method, that damp the interface force.

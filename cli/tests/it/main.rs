@@ -3,6 +3,8 @@
 mod beam;
 mod benchmarks;
 mod checkpoint;
+mod closed;
+mod damping;
 mod effects;
 mod failures;
 mod field_cases;
@@ -17,4 +19,5 @@ mod stability;
 mod static_tank;
 mod study;
 mod tank;
+mod warnings;
 mod work;

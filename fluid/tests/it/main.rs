@@ -2,8 +2,10 @@
 
 #![allow(clippy::float_cmp, reason = "prescribed and restored values arrive to the bit")]
 
+mod added_mass;
 mod allocation;
 mod balance;
+mod closed;
 mod common;
 mod conditions;
 mod errors;

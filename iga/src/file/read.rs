@@ -140,6 +140,8 @@ impl<'a> Document<'a> {
                 KnotError::NoElements
                 | KnotError::TooFew { .. }
                 | KnotError::Outside { .. }
+                | KnotError::Overflow { .. }
+                | KnotError::TooClose { .. }
                 | KnotError::NotClamped { .. }
                 | KnotError::Multiplicity { .. } => vector.span(),
             };

@@ -104,7 +104,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Passes bytes of a kind; the value behind them is what messages point to.
-    fn skip(&mut self, passes: impl Fn(u8) -> bool) {
+    pub(super) fn skip(&mut self, passes: impl Fn(u8) -> bool) {
         let rest = self.rest();
         self.at += rest.iter().position(|&byte| !passes(byte)).unwrap_or(rest.len());
         self.mark = self.at;

@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, HashSet};
 use super::document::{ElementBlock, GmshFile, default_name};
 use super::element::ElementKind;
 use super::error::ConvertError;
+use super::orientation;
+use super::sides::Owners;
 use crate::cell::{CellKind, Cells};
-use crate::error::Place;
 use crate::mesh::{Mesh, NamedFacets};
-use crate::simplex;
 
 /// A node farther from the plane than this part of the mesh's extent is not in it; CAD kernels leave round-off.
 const IN_PLANE: f64 = 1e-12;
@@ -24,13 +24,14 @@ impl GmshFile {
     /// and nodes that no cell uses. Groups come in the order of their tags, nodes and cells keep their order.
     /// A cell that several blocks name because it is in several groups counts once.
     ///
-    /// Clockwise triangles are refused, not turned: whether the geometry or a cell is the wrong way round cannot
-    /// be seen here, and turning a surface in gmsh is one line. Beware of surfaces in a group with a minus sign:
-    /// gmsh turns their triangles when it writes 2.2, but not when it writes 4.1.
+    /// Cells that are all clockwise (negative) are turned round, see [`is_inverted`](Self::is_inverted): the surface was
+    /// drawn the other way. Where both orientations meet, cells may overlap, so that is refused.
+    ///
+    /// A group that lies wholly inside the mesh, between two cells at each facet, is no boundary and is left out.
     ///
     /// # Errors
     /// [`ConvertError`] when there are no such cells, or quadrilaterals or elements of second order beside them,
-    /// no boundary group, a plane mesh out of `z = 0`, cells turned inside out, or when
+    /// no boundary group, a plane mesh out of `z = 0`, cells of both orientations, or when
     /// [`Mesh::new`] refuses what was read. Its messages count nodes and cells from 0 as the mesh does.
     ///
     /// # Panics
@@ -38,17 +39,18 @@ impl GmshFile {
     pub fn into_mesh<const D: usize>(self) -> Result<Mesh<D>, ConvertError> {
         assert!(D == 2 || D == 3, "gmsh files make meshes in 2 or 3 dimensions, not {D}");
         self.check_kinds(D)?;
-        let cells = self.cells(ElementKind::simplex(D));
+        let kind = ElementKind::simplex(D);
+        let mut cells = self.cells(kind);
         let (numbers, used) = numbering(self.points.len(), &cells);
         if D == 2 {
             self.check_plane(&used)?;
         }
+        orientation::unify(&self.points, kind, &mut cells)?;
         let points: Vec<[f64; D]> =
             used.iter().map(|&node| std::array::from_fn(|i| self.points[node][i])).collect();
         let nodes = cells.iter().map(|&node| numbers[node]).collect();
         let cells = Cells::new(CellKind::simplex(D), nodes);
-        check_orientation(&points, &cells)?;
-        let groups = self.boundary_groups(ElementKind::simplex(D - 1), &numbers)?;
+        let groups = self.boundary_groups(ElementKind::simplex(D - 1), &numbers, (kind, &cells.nodes))?;
         let facets = |nodes: Vec<usize>| nodes.as_chunks::<D>().0.to_vec();
         let groups: Vec<NamedFacets<D>> =
             groups.into_iter().map(|(name, nodes)| (name, facets(nodes))).collect();
@@ -103,16 +105,18 @@ impl GmshFile {
         }
     }
 
-    /// Names of all groups of boundary elements of a kind, and the nodes of their elements.
+    /// Names of all groups of boundary elements of a kind, and the nodes of their elements; `cells` are of one kind, with
+    /// new numbers as the nodes that are returned.
     pub(super) fn boundary_groups(
         &self,
         kind: ElementKind,
         numbers: &[usize],
+        cells: (ElementKind, &[usize]),
     ) -> Result<Vec<(String, Vec<usize>)>, ConvertError> {
         let dimension = kind.dimension();
         let named = self.names.iter().filter(|group| group.dimension == dimension);
         // A name without elements gives an empty group, which the mesh refuses: a condition there would act nowhere.
-        let mut groups: BTreeMap<u32, (String, Vec<usize>)> =
+        let mut groups: BTreeMap<u64, (String, Vec<usize>)> =
             named.map(|group| (group.tag, (group.name.clone(), Vec::new()))).collect();
         for block in self.blocks.iter().filter(|block| block.kind == kind) {
             match block.groups[..] {
@@ -127,6 +131,11 @@ impl GmshFile {
                 }
             }
         }
+        let owners = Owners::new(groups.values().map(|(_, nodes)| (kind, &nodes[..])), [cells]);
+        let is_inside = |facet: &[usize]| owners.of(kind, facet) == 2;
+        groups.retain(|_, (_, nodes)| {
+            nodes.is_empty() || !nodes.chunks_exact(kind.node_count()).all(is_inside)
+        });
         if groups.values().all(|(_, facets)| facets.is_empty()) {
             return Err(ConvertError::NoGroups { facet: kind });
         }
@@ -164,18 +173,4 @@ pub(super) fn numbering(count: usize, cells: &[usize]) -> (Vec<usize>, Vec<usize
         numbers[node] = number;
     }
     (numbers, used)
-}
-
-fn check_orientation<const D: usize>(points: &[[f64; D]], cells: &Cells) -> Result<(), ConvertError> {
-    let mut first = None;
-    let mut inverted = 0;
-    for nodes in cells {
-        let vertices = simplex::vertices(points, nodes);
-        let vertices = &vertices[..=D];
-        if simplex::measure(vertices) < 0.0 {
-            inverted += 1;
-            first.get_or_insert_with(|| Place::from(simplex::centroid(vertices)));
-        }
-    }
-    first.map_or(Ok(()), |place| Err(ConvertError::Inverted { inverted, cells: cells.len(), place }))
 }

@@ -23,8 +23,10 @@ pub(super) struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
+    /// A UTF-8 byte-order mark, which editors put before text, is passed over.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        Self { bytes, at: 0, mark: 0, encoding: Encoding::Ascii, section: None }
+        let at = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+        Self { bytes, at, mark: at, encoding: Encoding::Ascii, section: None }
     }
 
     pub(super) fn rest(&self) -> &'a [u8] {
@@ -41,12 +43,12 @@ impl<'a> Cursor<'a> {
         ParseError { position, section: self.section.clone(), fault }
     }
 
-    /// An `int` of the format.
-    pub(super) fn int(&mut self, wanted: &'static str) -> Result<i32, ParseError> {
+    /// An `int` of the format: 32 bits in binary; in text other tools write larger ones, too.
+    pub(super) fn int(&mut self, wanted: &'static str) -> Result<i64, ParseError> {
         match self.encoding {
             Encoding::Ascii => self.text_number(wanted),
-            Encoding::LittleEndian => Ok(i32::from_le_bytes(self.array(wanted)?)),
-            Encoding::BigEndian => Ok(i32::from_be_bytes(self.array(wanted)?)),
+            Encoding::LittleEndian => Ok(i32::from_le_bytes(self.array(wanted)?).into()),
+            Encoding::BigEndian => Ok(i32::from_be_bytes(self.array(wanted)?).into()),
         }
     }
 

@@ -8,7 +8,7 @@ use super::parser;
 
 /// A gmsh file: nodes, elements and the names of physical groups.
 ///
-/// The same mesh saved as 2.2 or 4.1, as text or binary, gives the same document (elements in several groups
+/// The same mesh saved as 2.0, 2.2 or 4.1, as text or binary, gives the same document (elements in several groups
 /// excepted, see [`ElementBlock::groups`]). Entities, parameters, partitions of 2.2, element tags, periodicity and
 /// results are passed over.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +31,7 @@ pub struct ElementBlock {
     /// Tags of the physical groups, ascending; empty for elements outside of all groups.
     ///
     /// Format 2.2 knows one group an element and repeats an element that has several.
-    pub groups: Vec<u32>,
+    pub groups: Vec<u64>,
     /// Nodes of all elements, element after element: indices into [`GmshFile::points`].
     pub nodes: Vec<usize>,
 }
@@ -42,7 +42,7 @@ pub struct GroupName {
     /// 0 for points, 1 for curves, 2 for surfaces, 3 for volumes; tags count anew in each dimension.
     pub dimension: usize,
     /// Number of the group.
-    pub tag: u32,
+    pub tag: u64,
     /// What the user calls it.
     pub name: String,
 }
@@ -59,7 +59,7 @@ impl GmshFile {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`ReadError`] when the file cannot be opened or is no complete mesh of format 2.2 or 4.1.
+    /// [`ReadError`] when the file cannot be opened or is no complete mesh of format 2.0 to 2.2 or 4.1.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
         let bytes = std::fs::read(path).map_err(|source| ReadError::File { path: path.into(), source })?;
         Self::parse(&bytes).map_err(|source| ReadError::Content { path: path.into(), source })
@@ -67,7 +67,7 @@ impl GmshFile {
 
     /// What a physical group is called: its name, or `group-<tag>` when the file gives none.
     #[must_use]
-    pub fn group_name(&self, dimension: usize, tag: u32) -> String {
+    pub fn group_name(&self, dimension: usize, tag: u64) -> String {
         let named = self.names.iter().find(|group| (group.dimension, group.tag) == (dimension, tag));
         named.map_or_else(|| default_name(tag), |group| group.name.clone())
     }
@@ -80,7 +80,7 @@ impl GmshFile {
 }
 
 /// The name of a group without one.
-pub(super) fn default_name(tag: u32) -> String {
+pub(super) fn default_name(tag: u64) -> String {
     format!("group-{tag}")
 }
 

@@ -125,7 +125,7 @@ impl fmt::Display for ElementKind {
 }
 
 /// What an element type is that is not read.
-pub(super) fn foreign_name(code: i32) -> &'static str {
+pub(super) fn foreign_name(code: i64) -> &'static str {
     match code {
         5 | 12 | 17 | 92 | 93 => "hexahedron",
         6 | 13 | 18 => "prism",

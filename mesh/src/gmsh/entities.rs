@@ -8,7 +8,7 @@ use super::fault::Fault;
 use super::numbering::GroupSets;
 
 /// The set of groups of each entity, found by dimension and tag.
-pub(super) type Entities = HashMap<(usize, i32), usize>;
+pub(super) type Entities = HashMap<(usize, i64), usize>;
 
 pub(super) fn read(cursor: &mut Cursor, sets: &mut GroupSets) -> Result<Entities, ParseError> {
     let mut counts = [0; 4];
@@ -33,7 +33,7 @@ pub(super) fn read(cursor: &mut Cursor, sets: &mut GroupSets) -> Result<Entities
 }
 
 /// Passes the place and the boundary of an entity; its groups are what counts.
-fn groups_of_entity(cursor: &mut Cursor, dimension: usize) -> Result<Vec<u32>, ParseError> {
+fn groups_of_entity(cursor: &mut Cursor, dimension: usize) -> Result<Vec<u64>, ParseError> {
     let coordinates = if dimension == 0 { 3 } else { 6 };
     for _ in 0..coordinates {
         cursor.real("a coordinate of an entity")?;

@@ -139,15 +139,45 @@ pub enum ConvertError {
         /// Where it is.
         place: Place,
     },
-    /// Cells with a negative measure.
-    #[error("{inverted} of {cells} cells are inverted, the first at {place}\nhint: {}", inverted_hint(*inverted == *cells))]
-    Inverted {
-        /// Number of such cells.
-        inverted: usize,
+    /// Cells of both orientations.
+    #[error("{fewer} of {cells} cells are oriented against the others, the first at {place}\nhint: {}", orientation_hint(*kind))]
+    Orientation {
+        /// The cells.
+        kind: ElementKind,
+        /// Number of cells of the rarer orientation.
+        fewer: usize,
         /// Number of all cells.
         cells: usize,
-        /// Centroid of the first.
+        /// Centroid of the first of the fewer.
         place: Place,
+    },
+    /// Several physical groups of cells, and none is chosen.
+    #[error("the file has several physical {}: {}\nhint: choose those that make this mesh by their names", region_word(*dimension), quoted(groups))]
+    SeveralRegions {
+        /// Dimension of the cells.
+        dimension: usize,
+        /// Names of the groups that have cells.
+        groups: Vec<String>,
+    },
+    /// Cells outside of all physical groups beside others that are in one, and none is chosen.
+    #[error("{cells} of the file's elements of dimension {dimension} belong to no physical group, the others to {}\nhint: choose the physical {} that make this mesh by their names, which leaves the others out, or put all of them into one", quoted(groups), region_word(*dimension))]
+    Unassigned {
+        /// Dimension of the cells.
+        dimension: usize,
+        /// Number of cells without a group.
+        cells: usize,
+        /// Names of the groups that have cells.
+        groups: Vec<String>,
+    },
+    /// A physical group of cells that the file does not have.
+    #[error("the file has no physical {} `{name}` with elements\nhint: {}", region_word(*dimension).trim_end_matches('s'), regions_hint(*dimension, groups))]
+    UnknownRegion {
+        /// Dimension of the cells.
+        dimension: usize,
+        /// As given.
+        name: String,
+        /// Names of the groups that have cells.
+        groups: Vec<String>,
     },
     /// No boundary group at all.
     #[error("no {facet} belongs to a physical group, so no part of the boundary can be named\nhint: mark the boundary in the .geo file: {} (format 2.2 loses the marks when Mesh.SaveAll is set)", physical_hint(*facet))]
@@ -202,12 +232,43 @@ fn kind_hint(kind: ElementKind) -> &'static str {
     }
 }
 
-fn inverted_hint(all: bool) -> &'static str {
-    if all {
-        "the surface's normal points to -z: turn its curve loop around, or add `ReverseMesh Surface{:};` to the .geo file"
-    } else {
-        "surfaces are oriented differently, or cells overlap: use `ReverseMesh Surface{...};` for the ones turned, or remesh"
+/// gmsh's own language turns surfaces, not cells; its Python module (`pip install gmsh`) turns the cells of any file.
+fn orientation_hint(kind: ElementKind) -> String {
+    if kind.dimension() != 2 {
+        return "they may overlap: remesh the volume".to_owned();
     }
+    format!(
+        "if cells overlap, remesh; else turn the clockwise ones in Python (`pip install gmsh`):\n\
+         import gmsh\n\
+         gmsh.initialize(); gmsh.open(\"old.msh\"); mesh = gmsh.model.mesh\n\
+         cells = mesh.getElementsByType({0})[0]\n\
+         z = mesh.getJacobians({0}, [0, 0, 0])[0][8::9]\n\
+         mesh.reverseElements([cell for cell, up in zip(cells, z) if up < 0])\n\
+         gmsh.write(\"new.msh\")",
+        kind.code()
+    )
+}
+
+fn region_word(dimension: usize) -> &'static str {
+    match dimension {
+        2 => "surfaces",
+        3 => "volumes",
+        _ => "groups",
+    }
+}
+
+fn quoted(names: &[String]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+fn regions_hint(dimension: usize, groups: &[String]) -> String {
+    if groups.is_empty() {
+        return format!(
+            "it has no physical {} at all: choose none, and all its cells are taken",
+            region_word(dimension)
+        );
+    }
+    format!("it has {}", quoted(groups))
 }
 
 fn physical_hint(facet: ElementKind) -> &'static str {

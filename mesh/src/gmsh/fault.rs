@@ -16,6 +16,16 @@ pub enum Fault {
         /// The first line.
         found: String,
     },
+    /// Text of two or four bytes a character.
+    #[error(
+        "the file is text in UTF-16, which is not read\nhint: save it as UTF-8 (or ASCII): `iconv -f UTF-16 -t UTF-8 old.msh > new.msh`, or choose the encoding in the editor"
+    )]
+    Utf16,
+    /// Lines that end with a carriage return alone.
+    #[error(
+        "the lines end with carriage returns alone\nhint: convert the line ends: `tr '\\r' '\\n' < old.msh > new.msh`"
+    )]
+    CarriageReturns,
     /// Another version.
     #[error(
         "format version `{found}` is not read\nhint: save as 4.1 or 2.2: `gmsh -0 old.msh -format msh41 -o new.msh`"
@@ -167,7 +177,7 @@ pub enum Fault {
         /// What was expected.
         wanted: &'static str,
         /// As found.
-        value: i32,
+        value: i64,
     },
     /// More or fewer dimensions than there are.
     #[error(
@@ -175,7 +185,7 @@ pub enum Fault {
     )]
     Dimension {
         /// As found.
-        value: i32,
+        value: i64,
     },
     /// Neither with nor without parameters.
     #[error(
@@ -183,7 +193,7 @@ pub enum Fault {
     )]
     Parametric {
         /// As found.
-        value: i32,
+        value: i64,
     },
     /// An infinite coordinate or none at all.
     #[error(
@@ -218,7 +228,7 @@ pub enum Fault {
     )]
     ForeignElement {
         /// Its number.
-        code: i32,
+        code: i64,
         /// What it is.
         name: &'static str,
     },
@@ -232,7 +242,7 @@ pub enum Fault {
         /// The entity's dimension.
         dimension: usize,
         /// The entity's tag.
-        tag: i32,
+        tag: i64,
     },
     /// Elements of an entity that does not exist.
     #[error(
@@ -242,7 +252,7 @@ pub enum Fault {
         /// The entity's dimension.
         dimension: usize,
         /// The entity's tag.
-        tag: i32,
+        tag: i64,
     },
     /// An entity given twice.
     #[error(
@@ -252,15 +262,25 @@ pub enum Fault {
         /// The entity's dimension.
         dimension: usize,
         /// The entity's tag.
-        tag: i32,
+        tag: i64,
     },
     /// A name without quotes, empty, or not UTF-8.
     #[error(
-        "`{found}` is not a name in double quotes\nhint: names are not empty and are UTF-8: 1 5 \"inflow\""
+        "`{found}` is not a name in double quotes\nhint: names are not empty, are UTF-8 and hold no quotes: 1 5 \"inflow\""
     )]
     Name {
         /// As written.
         found: String,
+    },
+    /// A name that does not say whether it is that of a curve or of a surface.
+    #[error(
+        "the name `{name}` has no dimension, so it is not clear what group {tag} consists of\nhint: write the dimension (1 for curves, 2 for surfaces) before the number, in place of any -1: `1 {tag} \"{name}\"`; only format 2.0, which is read, has names without"
+    )]
+    NameWithoutDimension {
+        /// The group's tag.
+        tag: u64,
+        /// The name.
+        name: String,
     },
     /// Two names for one group.
     #[error(
@@ -270,7 +290,7 @@ pub enum Fault {
         /// The group's dimension.
         dimension: usize,
         /// The group's tag.
-        tag: u32,
+        tag: u64,
         /// The second name.
         name: String,
     },

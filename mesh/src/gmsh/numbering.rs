@@ -46,8 +46,8 @@ impl NodeList {
 
 /// Sets of physical groups, each kept once: elements carry a set's number.
 pub(super) struct GroupSets {
-    sets: Vec<Vec<u32>>,
-    numbers: HashMap<Vec<u32>, usize>,
+    sets: Vec<Vec<u64>>,
+    numbers: HashMap<Vec<u64>, usize>,
 }
 
 impl GroupSets {
@@ -59,7 +59,7 @@ impl GroupSets {
     }
 
     /// The number of a set, given as ascending tags.
-    pub(super) fn number(&mut self, groups: &[u32]) -> usize {
+    pub(super) fn number(&mut self, groups: &[u64]) -> usize {
         if let Some(&number) = self.numbers.get(groups) {
             return number;
         }
@@ -96,5 +96,6 @@ impl Blocks {
 pub(super) fn kind(cursor: &mut Cursor) -> Result<ElementKind, ParseError> {
     let code = cursor.int("an element type")?;
     let name = foreign_name(code);
-    ElementKind::from_code(code).ok_or_else(|| cursor.fail(Fault::ForeignElement { code, name }))
+    let kind = i32::try_from(code).ok().and_then(ElementKind::from_code);
+    kind.ok_or_else(|| cursor.fail(Fault::ForeignElement { code, name }))
 }

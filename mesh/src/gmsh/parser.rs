@@ -1,12 +1,12 @@
 //! The sections of a file, one after the other.
 
 use super::cursor::Cursor;
-use super::document::{ElementBlock, GmshFile, GroupName};
+use super::document::{ElementBlock, GmshFile};
 use super::entities::{self, Entities};
 use super::error::ParseError;
 use super::fault::Fault;
 use super::header::{self, Version};
-use super::names;
+use super::names::{self, Label};
 use super::numbering::{GroupSets, NodeList};
 use super::{version2, version4};
 
@@ -33,7 +33,7 @@ struct Parser<'a> {
     cursor: Cursor<'a>,
     version: Version,
     sets: GroupSets,
-    names: Option<Vec<GroupName>>,
+    names: Option<Vec<Label>>,
     entities: Option<Entities>,
     nodes: Option<NodeList>,
     elements: Option<Vec<ElementBlock>>,
@@ -45,7 +45,7 @@ impl Parser<'_> {
             "MeshFormat" => return Err(self.cursor.fail(Fault::DuplicateSection)),
             "PhysicalNames" => {
                 self.first(self.names.is_some())?;
-                self.names = Some(names::read(&mut self.cursor)?);
+                self.names = Some(names::read(&mut self.cursor, self.version)?);
             }
             "Entities" if self.version == Version::Four => {
                 self.first(self.entities.is_some())?;
@@ -57,7 +57,7 @@ impl Parser<'_> {
             "Nodes" => {
                 self.first(self.nodes.is_some())?;
                 self.nodes = Some(match self.version {
-                    Version::Two => version2::nodes(&mut self.cursor)?,
+                    Version::TwoZero | Version::Two => version2::nodes(&mut self.cursor)?,
                     Version::Four => version4::nodes(&mut self.cursor)?,
                 });
             }
@@ -76,7 +76,7 @@ impl Parser<'_> {
             return Err(self.cursor.fail(Fault::SectionOrder { first: "$Nodes", second: "$Elements" }));
         };
         let blocks = match self.version {
-            Version::Two => version2::elements(&mut self.cursor, nodes, &mut self.sets)?,
+            Version::TwoZero | Version::Two => version2::elements(&mut self.cursor, nodes, &mut self.sets)?,
             Version::Four => version4::elements(&mut self.cursor, nodes, self.entities.as_ref())?,
         };
         Ok(blocks.finish(&self.sets))
@@ -97,7 +97,7 @@ impl Parser<'_> {
         let missing = |section| self.cursor.fail(Fault::MissingSection { section });
         let nodes = self.nodes.ok_or_else(|| missing("$Nodes"))?;
         let blocks = self.elements.ok_or_else(|| missing("$Elements"))?;
-        let names = self.names.unwrap_or_default();
+        let names = names::resolve(&self.cursor, self.names.unwrap_or_default(), &blocks)?;
         Ok(GmshFile { node_tags: nodes.tags, points: nodes.points, blocks, names })
     }
 }

@@ -4,8 +4,8 @@ use super::convert::numbering;
 use super::document::GmshFile;
 use super::element::ElementKind;
 use super::error::ConvertError;
+use super::orientation;
 use crate::cell::{CellKind, Cells};
-use crate::error::Place;
 use crate::solid::{NamedEdges, SolidMesh};
 
 impl GmshFile {
@@ -13,26 +13,26 @@ impl GmshFile {
     /// nodes), in a group or not.
     ///
     /// Groups, names, nodes and cells are taken as by [`into_mesh`](Self::into_mesh): lines of a physical group
-    /// become edges of the boundary group of its name, nodes that no cell uses are left out, and clockwise cells are
-    /// refused.
+    /// become edges of the boundary group of its name, nodes that no cell uses are left out, and so are groups inside the
+    /// mesh; cells that are all clockwise are turned round.
     ///
     /// # Errors
     /// [`ConvertError`] when there are no such cells, cells of several kinds, lines of another order than the cells, no
-    /// boundary group, nodes out of `z = 0`, cells turned inside out, or when [`SolidMesh::new`] refuses what was read.
+    /// boundary group, nodes out of `z = 0`, cells of both orientations, or when [`SolidMesh::new`] refuses what was read.
     /// Its messages count nodes and cells from 0 as the mesh does.
     pub fn into_solid_mesh(self) -> Result<SolidMesh<2>, ConvertError> {
         let (kind, cell_kind) = self.solid_kind()?;
         let line = self.edge_kind(kind, cell_kind)?;
-        let cells = self.cells(kind);
+        let mut cells = self.cells(kind);
         let (numbers, used) = numbering(self.points.len(), &cells);
         self.check_plane(&used)?;
+        orientation::unify(&self.points, kind, &mut cells)?;
         let points: Vec<[f64; 2]> =
             used.iter().map(|&node| [self.points[node][0], self.points[node][1]]).collect();
         let cells = Cells::new(cell_kind, cells.iter().map(|&node| numbers[node]).collect());
-        check_orientation(&points, &cells)?;
         let edge_kind = crate::solid::reference::edge_kind(cell_kind);
         let groups: Vec<NamedEdges> = self
-            .boundary_groups(line, &numbers)?
+            .boundary_groups(line, &numbers, (kind, &cells.nodes))?
             .into_iter()
             .map(|(name, nodes)| (name, Cells::new(edge_kind, nodes)))
             .collect();
@@ -87,22 +87,4 @@ fn plane_cell(kind: ElementKind) -> Option<CellKind> {
         | ElementKind::Tetrahedron4
         | ElementKind::Tetrahedron10 => None,
     }
-}
-
-/// Counts the cells whose corners run clockwise.
-fn check_orientation(points: &[[f64; 2]], cells: &Cells) -> Result<(), ConvertError> {
-    let corners = crate::solid::reference::corner_count(cells.kind);
-    let mut first = None;
-    let mut inverted = 0;
-    for nodes in cells {
-        let corner = |a: usize| points[nodes[a % corners]];
-        let doubled: f64 =
-            (0..corners).map(|a| corner(a)[0] * corner(a + 1)[1] - corner(a + 1)[0] * corner(a)[1]).sum();
-        if doubled < 0.0 {
-            inverted += 1;
-            let mean = |i: usize| (0..corners).map(|a| corner(a)[i]).sum::<f64>() / corners as f64;
-            first.get_or_insert_with(|| Place::from([mean(0), mean(1)]));
-        }
-    }
-    first.map_or(Ok(()), |place| Err(ConvertError::Inverted { inverted, cells: cells.len(), place }))
 }

@@ -234,7 +234,7 @@ fn quadrilateral() -> ElementBlock {
     ElementBlock { kind: ElementKind::Quadrilateral4, groups: vec![11], nodes: vec![0, 1, 2, 3] }
 }
 
-fn name(tag: u32, name: &str) -> GroupName {
+fn name(tag: u64, name: &str) -> GroupName {
     GroupName { dimension: 1, tag, name: name.into() }
 }
 
@@ -250,7 +250,6 @@ fn files_that_make_no_mesh() {
         ("second order", text(parse(SECOND_ORDER).into_mesh::<2>().map(|_| ())).to_string()),
         ("quadrilaterals", plate(|file| file.blocks.push(quadrilateral()))),
         ("out of the plane", plate(|file| file.points[7][2] = 0.1)),
-        ("all clockwise", plate(|file| swap_all(&mut triangles(file).nodes))),
         ("one clockwise", plate(|file| swap_all(&mut triangles(file).nodes[30..33]))),
         ("flat cell", plate(|file| triangles(file).nodes[1] = triangles(file).nodes[0])),
         ("triangle twice", plate(|file| triangles(file).nodes.extend([5, 16, 22]))),

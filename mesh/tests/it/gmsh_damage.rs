@@ -25,6 +25,14 @@ fn digest(bytes: &[u8]) -> bool {
     if let Ok(file) = GmshFile::parse(bytes) {
         let _ = file.clone().into_mesh::<2>();
         let _ = file.clone().into_mesh::<3>();
+        for dimension in [2, 3] {
+            let chosen = file.regions(dimension).into_iter().next();
+            if let Ok(part) = file.clone().part(dimension, chosen.as_slice()) {
+                let _ = part.clone().into_mesh::<2>();
+                let _ = part.clone().into_mesh::<3>();
+                let _ = part.into_solid_mesh();
+            }
+        }
         let _ = file.into_solid_mesh();
     }
     readable

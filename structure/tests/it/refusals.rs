@@ -2,7 +2,7 @@
 
 use partita_iga::{Knots, Side, Spline, build};
 use partita_structure::{
-    Law, LineSearch, Material, Plane, Rayleigh, Space, StructureError, StructureModel, StructureSettings,
+    Law, LineSearch, Material, Plane, Rayleigh, StructureError, StructureModel, StructureSettings,
     StructureSolver, TimeScheme,
 };
 
@@ -13,7 +13,7 @@ fn refusal<const D: usize>(
     model: StructureModel<D>,
     settings: StructureSettings,
 ) -> StructureError {
-    let error = StructureSolver::new(Space::Patch(patch), model, settings).err().expect("a refusal");
+    let error = StructureSolver::new(patch.into(), model, settings).err().expect("a refusal");
     assert!(error.to_string().contains("\nhint: "), "no hint: {error}");
     error
 }

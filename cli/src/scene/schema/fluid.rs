@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use partita_fluid::stabilization::INVERSE_CONSTANT;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::file::FileName;
 use super::formula::VectorFormula;
+use super::groups::Groups;
 use super::newton::Newton;
 use super::numbers::{Count, NonNegative, PoissonRatio, Positive, Real};
 
@@ -37,12 +39,21 @@ pub struct Fluid {
     /// Factor of the stabilization of continuity (grad-div), which damps coarse meshes under small steps. Default: 1.
     #[serde(default = "grad_div")]
     pub grad_div: NonNegative,
-    /// Holds the pressure of one node where no boundary does. Default: none.
+    /// Holds the pressure of one node where no boundary does. The fluid is then enclosed: walls may move, and fluid may be
+    /// driven in and out, as long as the net flux through the whole boundary stays zero to round-off. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressure_pin: Option<PressurePin>,
     /// Where the fluid is.
     pub mesh: FluidMesh,
     /// One condition for every boundary group of the mesh.
+    ///
+    /// At a node between two groups one condition holds: `interface` before `wall_motion`, then `no_slip`, `velocity`,
+    /// `slip`; of two alike that of the group whose name comes first in the alphabet. So a uniform inflow loses the flow
+    /// of half an edge at each no-slip wall beside it (`check` prints by how much), while a profile that is zero at the
+    /// walls loses nothing. `traction`, `do_nothing` and `stress_free` act on the edges of their group, up to its last
+    /// nodes, where the velocity is that of the neighbour.
+    #[serde(default)]
+    #[schemars(required)]
     pub boundary: BTreeMap<String, Condition>,
     /// State at t = 0: `"rest"` (default) or `{ velocity = [..] }`.
     #[serde(default)]
@@ -60,7 +71,7 @@ const fn on() -> bool {
 }
 
 fn inverse_constant() -> Positive {
-    Positive::new(36.0).expect("36 is positive")
+    Positive::new(INVERSE_CONSTANT).expect("it is positive")
 }
 
 fn grad_div() -> NonNegative {
@@ -117,8 +128,12 @@ pub enum FluidMesh {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GmshMesh {
-    /// File of format 2.2 or 4.1, text or binary, relative to the scene's folder.
+    /// File of format 2.0 to 2.2 or 4.1, text or binary, relative to the scene's folder.
     pub file: FileName,
+    /// Names of the physical surfaces that the fluid fills, one or a list; must be given where the file has several. Curves
+    /// between them and the rest of the file are boundary groups, those elsewhere are left out. Default: the whole mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surfaces: Option<Groups>,
     /// Factor on the file's coordinates: 0.001 for a mesh in millimetres. Default: 1.
     #[serde(default = "one")]
     pub scale: Positive,
@@ -191,7 +206,8 @@ pub enum Condition {
     Interface,
     /// Given velocity \[m/s\] in `x`, `y`, `t`.
     Velocity(VectorFormula),
-    /// A wall that moves with this displacement \[m\] in `x`, `y`, `t`, the fluid sticking to it.
+    /// A wall that moves with this displacement \[m\] in `x`, `y`, `t`, the fluid sticking to it. In an enclosed fluid it must
+    /// keep the area, as one that shifts or turns does.
     WallMotion(VectorFormula),
     /// Given traction \[Pa\] in `x`, `y`, `t`.
     Traction(VectorFormula),

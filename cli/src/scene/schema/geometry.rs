@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::file::FileName;
 use super::fluid::{one, origin};
+use super::groups::Groups;
 use super::numbers::{Count, Positive, Real};
 
 /// `[structure.geometry.*]`.
@@ -13,11 +14,16 @@ use super::numbers::{Count, Positive, Real};
 pub enum Geometry {
     /// A rectangle along the axes.
     Rectangle(RectanglePatch),
-    /// A curved beam: the sector of a ring. Its first parameter runs along the arc, its second to the left of it.
+    /// A curved beam: the sector of a ring. Its first parameter runs along the arc, its second to the left of it. With a
+    /// sweep of 360 or -360 degrees it is a whole ring: `left` and `right` are joined, the displacement is continuous there
+    /// (though not smooth), and neither is a side of its boundary.
     Arc(ArcPatch),
-    /// A strip of constant thickness along a smooth curve through points.
+    /// A strip of constant thickness along a smooth curve through points. A curve that ends where it begins closes smoothly;
+    /// `left` and `right` are then joined as in a whole ring.
     Curve(CurvePatch),
-    /// A patch from a spline file (see the README of `partita-iga`).
+    /// A patch from a spline file (see the README of `partita-iga`). Its parameters in a scene run from 0 to 1, whatever
+    /// its knots are. Opposite sides with the same control points, and weights in the same ratios, are joined as in a whole
+    /// ring; the control points of a side that is a single point move as one.
     Spline(SplineFile),
     /// Triangles or quadrilaterals of first or second order from a file of gmsh, instead of a spline; its physical curves are
     /// the groups that `clamped` and `wetted` name.
@@ -63,7 +69,8 @@ pub struct ArcPatch {
     pub radii: [Positive; 2],
     /// Angle from the x axis at which the arc starts \[degrees\].
     pub start: Real,
-    /// Angle through which it runs \[degrees\], counter-clockwise where positive. Clockwise, `bottom` is the inner arc.
+    /// Angle through which it runs \[degrees\], from -360 to 360, counter-clockwise where positive. Clockwise, `bottom` is
+    /// the inner arc.
     pub sweep: Real,
     /// Spline elements along the arc and across.
     pub elements: [Count; 2],
@@ -76,14 +83,15 @@ pub struct ArcPatch {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CurvePatch {
-    /// Points that the curve passes in this order \[m\], more than its degree along.
+    /// Points that the curve passes in this order \[m\], more than its degree along. For a closed curve the last point is
+    /// the first again.
     pub points: Vec<[Real; 2]>,
     /// Thickness of the strip \[m\].
     pub thickness: Positive,
     /// Which line of the strip the curve is: `"middle"` (default), `"bottom"` or `"top"`.
     #[serde(default)]
     pub alignment: Alignment,
-    /// Spline elements along the curve, at least as many as points less degree, and across.
+    /// Spline elements along the curve, at least as many as points less degree (of a closed curve, as points), and across.
     pub elements: [Count; 2],
     /// Spline degree along the curve and across. Default: `[2, 2]`.
     #[serde(default)]
@@ -125,8 +133,12 @@ fn whole() -> [Count; 2] {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SolidMesh {
-    /// File of format 2.2 or 4.1, text or binary, relative to the scene's folder.
+    /// File of format 2.0 to 2.2 or 4.1, text or binary, relative to the scene's folder; it may be that of the fluid.
     pub file: FileName,
+    /// Names of the physical surfaces that are the structure, one or a list; must be given where the file has several.
+    /// Default: the whole mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surfaces: Option<Groups>,
     /// Factor on the file's coordinates: 0.001 for a mesh in millimetres. Default: 1.
     #[serde(default = "one")]
     pub scale: Positive,

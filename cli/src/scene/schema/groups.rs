@@ -1,4 +1,4 @@
-//! One boundary group, or several taken together.
+//! One group of a mesh, or several taken together.
 
 use std::borrow::Cow;
 
@@ -7,7 +7,7 @@ use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::ser::Serializer;
 use serde::{Deserialize, Serialize};
 
-/// Names of boundary groups, at least one; a single one may stand without brackets.
+/// Names of groups of a mesh, at least one; a single one may stand without brackets.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Groups(Vec<String>);
 
@@ -40,7 +40,7 @@ impl<'de> Visitor<'de> for GroupsVisitor {
     type Value = Groups;
 
     fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        f.write_str("the name of a boundary group in quotes, or a list of them")
+        f.write_str("the name of a group in quotes, or a list of them")
     }
 
     fn visit_str<E: de::Error>(self, name: &str) -> Result<Groups, E> {
@@ -87,6 +87,6 @@ mod tests {
         assert_eq!(read("groups = [\"beam\", \"wall\"]").expect("two").names(), ["beam", "wall"]);
         assert_eq!(read("groups = [\"beam\", \"beam\"]").expect_err("twice"), "`beam` is named twice");
         assert!(read("groups = []").expect_err("none").contains("invalid length 0"));
-        assert!(read("groups = 3").expect_err("a number").contains("the name of a boundary group"));
+        assert!(read("groups = 3").expect_err("a number").contains("the name of a group"));
     }
 }

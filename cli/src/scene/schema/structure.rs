@@ -1,7 +1,10 @@
 //! `[structure]`: what deforms, and how it is solved.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
+use partita_numerics::time::GeneralizedAlpha;
+use partita_structure::TimeScheme;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +25,11 @@ pub struct Structure {
     /// Sides of the patch, or groups of the mesh, that do not move. Default: none.
     #[serde(default)]
     pub clamped: Vec<Part>,
+    /// Components of the displacement, `"x"` and `"y"`, that stay zero on a side of the patch or a group of the mesh:
+    /// `held = { right = ["x"] }` is a roller on a wall at x = const, or a plane of symmetry; its points move along the
+    /// wall and never off it. Default: none.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub held: BTreeMap<String, Vec<Component>>,
     /// Sides of the patch, or groups of the mesh, that touch the fluid. Default: none.
     #[serde(default)]
     pub wetted: Vec<Part>,
@@ -29,7 +37,7 @@ pub struct Structure {
     pub geometry: Geometry,
     /// What it is made of.
     pub material: Material,
-    /// How it moves in time. Default: `generalized_alpha` with spectral radius 1.
+    /// How it moves in time. Default: `{ generalized_alpha = { spectral_radius = 0.5 } }`.
     #[serde(default)]
     pub time_scheme: StructureTimeScheme,
     /// Rayleigh damping. Default: none.
@@ -44,10 +52,41 @@ pub struct Structure {
 }
 
 /// A part of the structure's boundary: a side of a patch (`left`, `right`, `bottom`, `top`: the start and the end of its
-/// first and of its second parameter), or a group of a mesh.
+/// first and of its second parameter), or a group of a mesh. Sides of a patch that lie on each other, as those of a full ring,
+/// are joined and no part of the boundary.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct Part(String);
+
+/// A component of a vector.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Component {
+    /// Along the x axis.
+    X,
+    /// Along the y axis.
+    Y,
+}
+
+impl Component {
+    /// 0 for x.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        match self {
+            Self::X => 0,
+            Self::Y => 1,
+        }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+        }
+    }
+}
 
 impl Part {
     /// The name.
@@ -105,16 +144,18 @@ pub enum Plane {
 pub enum StructureTimeScheme {
     /// Chung and Hulbert 1993.
     GeneralizedAlpha {
-        /// Spectral radius at infinite frequency: 1 keeps the energy, 0 damps most. Default: 1.
+        /// Spectral radius at infinite frequency: 1 keeps the energy, and the interface force oscillates from step to step; 0
+        /// damps most. Default: 0.5.
         #[serde(default = "spectral_radius")]
         spectral_radius: SpectralRadius,
     },
-    /// Newmark 1959.
+    /// Newmark 1959; forces are balanced at the end of the step.
     Newmark {
-        /// Weight of the new acceleration in the displacement: above 0, up to 0.5. Default: 0.25.
+        /// Weight of the new acceleration in the displacement: at least `gamma`/2. Default: 0.25.
         #[serde(default = "newmark_beta")]
         beta: Positive,
-        /// Weight of the new acceleration in the velocity: 0.5 is of second order, more damps. Default: 0.5.
+        /// Weight of the new acceleration in the velocity: at least 0.5, which is of second order; more damps, and is of
+        /// first order. Default: 0.5.
         #[serde(default = "newmark_gamma")]
         gamma: Positive,
     },
@@ -123,15 +164,15 @@ pub enum StructureTimeScheme {
 }
 
 fn spectral_radius() -> SpectralRadius {
-    SpectralRadius::new(1.0).expect("1 is a spectral radius")
+    SpectralRadius::new(TimeScheme::DEFAULT_SPECTRAL_RADIUS).expect("it is a spectral radius")
 }
 
 fn newmark_beta() -> Positive {
-    Positive::new(0.25).expect("0.25 is positive")
+    Positive::new(GeneralizedAlpha::AVERAGE_ACCELERATION.beta).expect("it is positive")
 }
 
 fn newmark_gamma() -> Positive {
-    Positive::new(0.5).expect("0.5 is positive")
+    Positive::new(GeneralizedAlpha::AVERAGE_ACCELERATION.gamma).expect("it is positive")
 }
 
 impl Default for StructureTimeScheme {
@@ -154,9 +195,11 @@ pub struct LineSearch {
 
 impl Default for LineSearch {
     fn default() -> Self {
+        let partita_structure::LineSearch { tolerance, max_evaluations } =
+            partita_structure::LineSearch::default();
         Self {
-            tolerance: Fraction::new(0.8).expect("0.8 is a fraction"),
-            max_evaluations: Count::literal(10),
+            tolerance: Fraction::new(tolerance).expect("it is a fraction"),
+            max_evaluations: Count::literal(max_evaluations),
         }
     }
 }

@@ -6,8 +6,9 @@ use partita_mesh::Mesh;
 use partita_mesh::generate::{self, Diagonal};
 use partita_mesh::refine;
 
-use super::FLUID_FILE;
+use super::content::{self, Content};
 use super::read::{self, Input};
+use super::{FLUID_FILE, Shapes};
 use crate::scene::finding::Finding;
 use crate::scene::schema::{Circle, Count, Diagonals, FluidMesh, GmshMesh, Positive, Real, RectangleMesh};
 use crate::scene::validate::Check;
@@ -19,14 +20,16 @@ const MOST_REFINEMENTS: usize = 10;
 pub(super) fn mesh(
     mesh: &FluidMesh,
     folder: &Path,
-    inputs: &mut Vec<Input>,
+    shapes: &mut Shapes,
     check: &mut Check<'_>,
 ) -> Option<Mesh<2>> {
     let (made, place) = match mesh {
         FluidMesh::Rectangle(mesh) => (rectangle(mesh), &["fluid", "mesh", "rectangle"][..]),
-        FluidMesh::Gmsh(mesh) => (from_file(mesh, folder, inputs), &["fluid", "mesh", "gmsh", "file"][..]),
+        FluidMesh::Gmsh(mesh) => {
+            (from_file(mesh, folder, shapes, check), &["fluid", "mesh", "gmsh", "file"][..])
+        }
     };
-    made.map_err(|finding| check.add(finding.mark_if(check.value(place), "this mesh"))).ok()
+    made.map_err(|finding| check.add(finding.mark_unless(check.value(place), "this mesh"))).ok()
 }
 
 fn rectangle(mesh: &RectangleMesh) -> Result<Mesh<2>, Finding> {
@@ -34,19 +37,37 @@ fn rectangle(mesh: &RectangleMesh) -> Result<Mesh<2>, Finding> {
         origin: mesh.origin.map(Real::get),
         size: mesh.size.map(Positive::get),
         divisions: mesh.divisions.map(Count::get),
-        pattern: match mesh.diagonals {
-            Diagonals::Crossed => Diagonal::Crossed,
-            Diagonals::Right => Diagonal::Right,
-            Diagonals::Left => Diagonal::Left,
-            Diagonals::Alternating => Diagonal::Alternating,
-        },
+        pattern: mesh.diagonals.into(),
     });
     made.map_err(|error| Finding::of(&error))
 }
 
-fn from_file(mesh: &GmshMesh, folder: &Path, inputs: &mut Vec<Input>) -> Result<Mesh<2>, Finding> {
+impl From<Diagonals> for Diagonal {
+    fn from(diagonals: Diagonals) -> Self {
+        match diagonals {
+            Diagonals::Crossed => Self::Crossed,
+            Diagonals::Right => Self::Right,
+            Diagonals::Left => Self::Left,
+            Diagonals::Alternating => Self::Alternating,
+        }
+    }
+}
+
+fn from_file(
+    mesh: &GmshMesh,
+    folder: &Path,
+    shapes: &mut Shapes,
+    check: &Check<'_>,
+) -> Result<Mesh<2>, Finding> {
     let (file, bytes) = read::gmsh(&mesh.file, mesh.scale, folder)?;
-    let mut made = file.into_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
+    let mut content = Content::new(&mesh.file, &file, mesh.surfaces.as_ref());
+    let table = ["fluid", "mesh", "gmsh"];
+    let part = content::choose(file, mesh.surfaces.as_ref(), &mesh.file, check, table)?;
+    content.turned = part.is_inverted(2);
+    content.touching(&part);
+    let mut made = part.into_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
+    content.bounds(&made.groups().iter().map(|group| &*group.name).collect::<Vec<_>>());
+    shapes.fluid_file = Some(content);
     if mesh.refine > MOST_REFINEMENTS {
         return Err(Finding::new(format!(
             "refined {} times the mesh would not fit any machine",
@@ -63,6 +84,6 @@ fn from_file(mesh: &GmshMesh, folder: &Path, inputs: &mut Vec<Input>) -> Result<
     for _ in 0..mesh.refine {
         made = refine::refine(&made, &circles).map_err(|error| Finding::of(&error))?;
     }
-    inputs.push(Input { name: FLUID_FILE, bytes });
+    shapes.inputs.push(Input { name: FLUID_FILE, bytes });
     Ok(made)
 }

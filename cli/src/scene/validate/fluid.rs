@@ -12,11 +12,21 @@ const MOST_CELLS: f64 = 1e8;
 pub(super) fn check(check: &mut Check<'_>, scene: &Scene, fluid: &Fluid) {
     if let FluidMesh::Rectangle(mesh) = &fluid.mesh {
         size(check, mesh);
-        groups::check(check, scene, fluid, &generate::RECTANGLE_SIDES);
+        if groups::check(check, scene, fluid, &generate::RECTANGLE_SIDES, None) {
+            complete(check, scene, fluid);
+        }
     }
-    interface(check, fluid, scene.structure.is_some());
-    pressure(check, fluid, scene.moves_the_interface());
+    lonely_interface(check, scene, fluid);
+    needless_pin(check, fluid);
     backflow(check, fluid);
+}
+
+/// What the conditions lack once every boundary group has one: before, it may be among those that are missing.
+pub(super) fn complete(check: &mut Check<'_>, scene: &Scene, fluid: &Fluid) {
+    if scene.structure.is_some() {
+        interface(check, fluid);
+    }
+    pressure(check, fluid, scene.moves_the_interface());
 }
 
 fn size(check: &mut Check<'_>, mesh: &RectangleMesh) {
@@ -30,20 +40,25 @@ fn size(check: &mut Check<'_>, mesh: &RectangleMesh) {
     }
 }
 
-fn interface(check: &mut Check<'_>, fluid: &Fluid, coupled: bool) {
+fn interface(check: &mut Check<'_>, fluid: &Fluid) {
+    if fluid.boundary.values().any(|condition| *condition == Condition::Interface) {
+        return;
+    }
+    check.add(
+        Finding::new("no boundary group of the fluid is the interface")
+            .mark_if(check.key(&["fluid", "boundary"]), "none of these is \"interface\"")
+            .hint("give the condition \"interface\" to the group that touches the structure"),
+    );
+}
+
+fn lonely_interface(check: &mut Check<'_>, scene: &Scene, fluid: &Fluid) {
     let marked = fluid.boundary.iter().find(|(_, condition)| **condition == Condition::Interface);
-    match marked {
-        None if coupled => check.add(
-            Finding::new("no boundary group of the fluid is the interface")
-                .mark_if(check.key(&["fluid", "boundary"]), "none of these is \"interface\"")
-                .hint("give the condition \"interface\" to the group that touches the structure"),
-        ),
-        Some((group, _)) if !coupled => check.add(
+    if let (Some((group, _)), None) = (marked, &scene.structure) {
+        check.add(
             Finding::new(format!("`{group}` is an interface, but the scene has no structure"))
                 .mark_if(check.value(&["fluid", "boundary", group]), "with what?")
                 .hint("add a [structure] and a [coupling], or give the group another condition"),
-        ),
-        _ => {}
+        );
     }
 }
 
@@ -64,23 +79,31 @@ fn backflow(check: &mut Check<'_>, fluid: &Fluid) {
     }
 }
 
-/// An incompressible fluid needs one place where its pressure is known.
-fn pressure(check: &mut Check<'_>, fluid: &Fluid, is_moved: bool) {
-    let opening = fluid.boundary.iter().find(|(_, condition)| is_open(condition)).map(|(group, _)| group);
-    let moves =
-        is_moved || fluid.boundary.values().any(|condition| matches!(condition, Condition::WallMotion(_)));
-    match (opening, &fluid.pressure_pin) {
-        (Some(group), Some(_)) => check.add(
+/// The group through which the fluid may leave, if there is one.
+fn opening(fluid: &Fluid) -> Option<&String> {
+    fluid.boundary.iter().find(|(_, condition)| is_open(condition)).map(|(group, _)| group)
+}
+
+/// An opening fixes the level of the pressure.
+fn needless_pin(check: &mut Check<'_>, fluid: &Fluid) {
+    if let (Some(group), Some(_)) = (opening(fluid), &fluid.pressure_pin) {
+        check.add(
             Finding::new("the pressure is fixed twice")
                 .mark_if(check.key(&["fluid", "pressure_pin"]), "once here")
                 .mark_if(check.key(&["fluid", "boundary", group]), "once here")
                 .hint("leave out `pressure_pin`; it is for a fluid without any outflow"),
-        ),
-        (None, _) if moves => check.add(
-            Finding::new("the fluid is enclosed, and its boundary moves")
+        );
+    }
+}
+
+/// An incompressible fluid needs one place where its pressure is known.
+fn pressure(check: &mut Check<'_>, fluid: &Fluid, is_elastic: bool) {
+    match (opening(fluid), &fluid.pressure_pin) {
+        (None, _) if is_elastic => check.add(
+            Finding::new("the fluid is enclosed, and an elastic structure moves its boundary")
                 .mark_if(check.key(&["fluid", "boundary"]), "every group prescribes the velocity")
                 .hint(
-                    "an incompressible fluid cannot give way, and its pressure has no level: \
+                    "an incompressible fluid keeps its volume, which the iterates of a structure do not: \
                      make one group \"stress_free\" or \"do_nothing\"",
                 ),
         ),

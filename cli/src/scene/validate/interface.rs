@@ -1,16 +1,19 @@
 //! Whether fluid and structure meet: the same place, the same unit, the same corners.
 
+mod facing;
 mod wetted;
 
+use partita_mesh::facet::Facet;
 use partita_mesh::mesh::facet_nodes;
 use partita_mesh::{Mesh, Place};
-use partita_structure::Space;
+use partita_structure::{Boundary, Space};
 
 use super::Check;
 use crate::build;
 use crate::scene::finding::Finding;
 use crate::scene::schema::{Condition, Coupling, Fluid, Scene, Structure};
 use crate::scene::shapes::Shapes;
+use facing::Inside;
 use wetted::Wetted;
 
 /// The interface of both fields.
@@ -25,6 +28,10 @@ pub(super) fn check(check: &mut Check<'_>, scene: &Scene, shapes: &Shapes) {
         check.add(finding);
     } else if let Some(finding) = meeting.corner_without_node(check) {
         check.add(finding);
+    } else if let Some(finding) =
+        meeting.on_one_side(check, mesh, space).or_else(|| meeting.covered(check, mesh, space))
+    {
+        check.add(finding);
     }
 }
 
@@ -32,7 +39,9 @@ pub(super) fn check(check: &mut Check<'_>, scene: &Scene, shapes: &Shapes) {
 struct Meeting<'a> {
     /// A group that is the interface.
     group: &'a str,
+    facets: Vec<Facet<2>>,
     nodes: Vec<[f64; 2]>,
+    parts: Boundary,
     wetted: Wetted,
     /// Largest distance between them \[m\].
     tolerance: f64,
@@ -65,7 +74,7 @@ impl<'a> Meeting<'a> {
         }
         let tolerance = coupling.projection_tolerance.get() * diagonal(&nodes);
         let wetted = Wetted::new(space, &parts, &nodes)?;
-        Some(Self { group, nodes, wetted, tolerance })
+        Some(Self { group, facets, nodes, parts, wetted, tolerance })
     }
 
     /// Both have the same shape, but one is as many times larger as one unit of length is than another.
@@ -111,6 +120,39 @@ impl<'a> Meeting<'a> {
                  boundaries in place and shape, name every wetted part, or raise `coupling.projection_tolerance`",
                 self.tolerance
             )),
+        )
+    }
+
+    /// Edges that have the structure on the side of the fluid.
+    fn on_one_side(&self, check: &Check<'_>, mesh: &Mesh<2>, space: &Space<2>) -> Option<Finding> {
+        let size = diagonal(&self.nodes);
+        let Inside { count, place, part } =
+            facing::inside(&self.facets, mesh.points(), space, &self.parts, size)?;
+        Some(
+            Finding::new(format!(
+                "at {} fluid and structure lie on the same side of the interface: `{part}` is wetted from inside the structure",
+                Place::from(place),
+            ))
+            .mark_if(
+                check.value(&["fluid", "boundary", self.group]),
+                format!("{count} of {} edges", self.facets.len()),
+            )
+            .mark_if(check.value(&["structure", "wetted"]), "the outward normals are the same")
+            .hint(
+                "the interface separates the two: name the side of the structure that faces the fluid in `wetted`, and move \
+                 the structure's geometry (or the fluid's mesh) so that this side lies on the fluid's boundary",
+            ),
+        )
+    }
+
+    /// A place that both fill.
+    fn covered(&self, check: &Check<'_>, mesh: &Mesh<2>, space: &Space<2>) -> Option<Finding> {
+        let place = facing::covered(mesh, space, &self.parts, self.tolerance)?;
+        Some(
+            Finding::new(format!("at {} the structure lies inside the fluid's mesh", Place::from(place)))
+                .mark_if(check.value(&["structure", "geometry"]), "this geometry")
+                .mark_if(check.value(&["fluid", "mesh"]), "overlaps this mesh")
+                .hint("leave the place of the structure out of the fluid's mesh: a hole, or a boundary along all of it"),
         )
     }
 

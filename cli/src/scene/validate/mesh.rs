@@ -3,17 +3,26 @@
 use partita_mesh::simplex;
 use partita_mesh::{Mesh, Place};
 
-use super::{Check, groups};
+use super::{Check, fluid as conditions, groups};
 use crate::scene::finding::Finding;
 use crate::scene::schema::{Fluid, FluidMesh, Line, Probe, Real, Scene};
+use crate::scene::shapes::Content;
 
 /// The fluid's mesh against what the scene says about it.
-pub(super) fn check(check: &mut Check<'_>, scene: &Scene, fluid: &Fluid, mesh: &Mesh<2>) {
+pub(super) fn check(
+    check: &mut Check<'_>,
+    scene: &Scene,
+    fluid: &Fluid,
+    mesh: &Mesh<2>,
+    file: Option<&Content>,
+) {
     if matches!(fluid.mesh, FluidMesh::Gmsh(_)) {
         let names: Vec<&str> = mesh.groups().iter().map(|group| group.name.as_str()).collect();
-        groups::check(check, scene, fluid, &names);
+        let known = groups::check(check, scene, fluid, &names, file);
+        if !uncovered(check, mesh) && known {
+            conditions::complete(check, scene, fluid);
+        }
     }
-    uncovered(check, mesh);
     pieces(check, mesh);
     for (name, probe) in &scene.output.probes {
         match probe {
@@ -31,10 +40,10 @@ pub(super) fn check(check: &mut Check<'_>, scene: &Scene, fluid: &Fluid, mesh: &
     }
 }
 
-/// Every edge of the boundary needs a condition, so it needs a group.
-fn uncovered(check: &mut Check<'_>, mesh: &Mesh<2>) {
+/// Every edge of the boundary needs a condition, so it needs a group; tells whether one has none.
+fn uncovered(check: &mut Check<'_>, mesh: &Mesh<2>) -> bool {
     let open = mesh.ungrouped_boundary();
-    let Some(first) = open.first() else { return };
+    let Some(first) = open.first() else { return false };
     let place = Place::from(first.centroid(mesh.points()));
     let edges = if open.len() == 1 { "edge belongs" } else { "edges belong" };
     check.add(
@@ -46,6 +55,7 @@ fn uncovered(check: &mut Check<'_>, mesh: &Mesh<2>) {
                  .geo file, `Physical Curve(\"wall\") = {...};`, mesh again, and give the group a condition",
             ),
     );
+    true
 }
 
 /// A fluid in two pieces is a mistake of the mesh: nothing carries a force or a flow from one to the other.

@@ -1,11 +1,14 @@
 //! Whether the structure is held and touches what it should.
 
+use std::ops::Range;
+
 use partita_numerics::time::GeneralizedAlpha;
 
 use super::Check;
 use crate::nearest::nearest;
 use crate::scene::finding::Finding;
 use crate::scene::schema::{Geometry, Part, Structure, StructureTimeScheme};
+use crate::scene::shapes::Content;
 
 /// Control points of a patch; more would not fit any machine the program is written for.
 const MOST_POINTS: f64 = 1e8;
@@ -13,8 +16,9 @@ const MOST_POINTS: f64 = 1e8;
 pub(super) fn check(check: &mut Check<'_>, structure: &Structure, coupled: bool) {
     size(check, structure);
     if let Some(sides) = structure.geometry.sides() {
-        known_parts(check, structure, "patch", &sides);
+        known_parts(check, structure, "patch", &sides, None);
     }
+    held(check, structure);
     twice(check, "clamped", &structure.clamped);
     twice(check, "wetted", &structure.wetted);
     if let Some(side) = structure.wetted.iter().find(|side| structure.clamped.contains(side)) {
@@ -33,7 +37,8 @@ pub(super) fn check(check: &mut Check<'_>, structure: &Structure, coupled: bool)
         );
     }
     match structure.wetted.first() {
-        None if coupled => check.add(
+        // The groups of a mesh are named when its file was read.
+        None if coupled && !matches!(structure.geometry, Geometry::Gmsh(_)) => check.add(
             Finding::new("no side of the structure touches the fluid")
                 .mark_if(check.key(&["structure"]), "`wetted` is missing or empty")
                 .hint("name the sides that touch the fluid: `wetted = [\"top\"]`"),
@@ -70,19 +75,68 @@ fn size(check: &mut Check<'_>, structure: &Structure) {
     }
 }
 
-/// Clamped and wetted parts against the names that the boundary has.
-pub(super) fn known_parts(check: &mut Check<'_>, structure: &Structure, what: &str, names: &[&str]) {
-    for (key, parts) in [("clamped", &structure.clamped), ("wetted", &structure.wetted)] {
-        for part in parts.iter().map(Part::name).filter(|part| !names.contains(part)) {
-            check.add(
-                Finding::new(format!("the {what} of the structure has no part `{part}`"))
-                    .mark_if(check.value(&["structure", key]), "unknown part")
-                    .hint(match nearest(part, names.iter().copied()) {
-                        Some(near) => format!("did you mean `{near}`?"),
-                        None => format!("parts of its boundary: {}", names.join(", ")),
-                    }),
-            );
-        }
+/// The parts of the boundary that a structure names, and where.
+pub(super) fn named_parts<'a>(
+    check: &Check<'_>,
+    structure: &'a Structure,
+) -> Vec<(Option<Range<usize>>, &'a str)> {
+    let listed = |key, parts: &'a [Part]| {
+        let place = check.value(&["structure", key]);
+        parts.iter().map(move |part| (place.clone(), part.name()))
+    };
+    let held = structure.held.keys().map(|part| (check.key(&["structure", "held", part]), part.as_str()));
+    listed("clamped", &structure.clamped).chain(held).chain(listed("wetted", &structure.wetted)).collect()
+}
+
+/// Supports of single components, which clamped parts do not need and wetted ones cannot all have.
+fn held(check: &mut Check<'_>, structure: &Structure) {
+    for (part, components) in &structure.held {
+        let path = ["structure", "held", part];
+        let names = |part_of: &[Part]| part_of.iter().any(|other| other.name() == part);
+        let repeated = components.iter().enumerate().find(|(i, c)| components[..*i].contains(c));
+        let finding = if components.is_empty() {
+            Finding::new(format!("structure.held.{part} names no component"))
+                .mark_if(check.value(&path), "empty")
+                .hint(format!("name what stays zero, `{part} = [\"x\"]`, or leave the part out"))
+        } else if let Some((_, component)) = repeated {
+            Finding::new(format!("structure.held.{part} names `{}` twice", component.name()))
+                .mark_if(check.value(&path), "once is enough")
+                .hint(format!("name `{}` once", component.name()))
+        } else if names(&structure.clamped) {
+            Finding::new(format!("side `{part}` is both clamped and held"))
+                .mark_if(check.value(&["structure", "clamped"]), "does not move at all")
+                .mark_if(check.value(&path), "moves in some directions")
+                .hint("name it in one of the two")
+        } else if components.len() == 2 && names(&structure.wetted) {
+            Finding::new(format!("side `{part}` is wetted and held in x and y"))
+                .mark_if(check.value(&path), "does not move")
+                .mark_if(check.value(&["structure", "wetted"]), "moves with the fluid")
+                .hint("hold it in one direction, or take it out of `wetted`")
+        } else {
+            continue;
+        };
+        check.add(finding);
+    }
+}
+
+/// The parts that a structure names against those of its boundary, and the file that it was read from.
+pub(super) fn known_parts(
+    check: &mut Check<'_>,
+    structure: &Structure,
+    what: &str,
+    names: &[&str],
+    file: Option<&Content>,
+) {
+    for (place, part) in named_parts(check, structure).into_iter().filter(|(_, part)| !names.contains(part)) {
+        let finding = file.and_then(|file| file.elsewhere(part, names)).unwrap_or_else(|| {
+            Finding::new(format!("the {what} of the structure has no part `{part}`")).hint(
+                match nearest(part, names.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("parts of its boundary: {}", names.join(", ")),
+                },
+            )
+        });
+        check.add(finding.mark_if(place, "unknown part"));
     }
 }
 
@@ -110,11 +164,11 @@ fn statics(check: &mut Check<'_>, structure: &Structure) {
         return;
     }
     let place = check.value(&["structure", "time_scheme"]);
-    if structure.clamped.is_empty() {
+    if structure.clamped.is_empty() && structure.held.is_empty() {
         check.add(
             Finding::new("a quasi-static structure is held nowhere")
                 .mark_if(place.clone(), "no inertia either")
-                .hint("without inertia and supports it has no place of its own: name a side in `clamped`"),
+                .hint("without inertia and supports it has no place of its own: name a part in `clamped` or `held`"),
         );
     }
     if structure.rayleigh_damping.is_some() {

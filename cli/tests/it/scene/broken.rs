@@ -4,6 +4,7 @@ mod fit;
 mod geometry;
 mod keys;
 mod overrides;
+mod several;
 mod shapes;
 mod values;
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use partita_iga::{Side, Spline};
 use partita_mesh::{SolidMesh, solid};
-use partita_structure::{Boundary, Space};
+use partita_structure::{Boundary, Patch, Space};
 
 /// What is known of the wetted parts, sides of a patch or groups of a mesh.
 pub(super) struct Wetted {
@@ -26,11 +26,19 @@ impl Wetted {
         }
     }
 
-    fn of_patch(patch: &Spline<2>, sides: &[Side], nodes: &[[f64; 2]]) -> Option<Self> {
+    fn of_patch(patch: &Patch<2>, sides: &[Side], nodes: &[[f64; 2]]) -> Option<Self> {
+        let (patch, seams) = (patch.spline(), patch.seams());
+        if sides.iter().any(|side| seams.partner(*side).is_some()) {
+            return None;
+        }
         let rows = partita_iga::transfer::rows(patch, sides, nodes, f64::INFINITY).ok()?;
         let curves: Vec<_> = sides.iter().map(|&side| (side.to_string(), patch.side(side).0)).collect();
-        let ends = curves
+        let open = sides
             .iter()
+            .zip(&curves)
+            .filter(|(side, (_, curve))| !(seams.is_loop(**side) && is_smooth(curve)));
+        let ends = open
+            .map(|(_, curve)| curve)
             .flat_map(|(name, curve)| curve.knots()[0].domain().map(|xi| (name.clone(), curve.point(&[xi]))));
         Some(Self {
             gaps: rows.into_iter().map(|row| (row.side.to_string(), row.distance)).collect(),
@@ -56,4 +64,14 @@ impl Wetted {
             places: edges_at.keys().map(|&node| place(node)).collect(),
         })
     }
+}
+
+/// The sine of an angle below which two directions are one.
+const SMOOTH: f64 = 1e-3;
+
+/// Whether a closed curve has no corner where its ends meet: the fluid needs no node there.
+fn is_smooth(curve: &Spline<2>) -> bool {
+    let [a, b] = curve.knots()[0].domain().map(|xi| curve.tangent(&[xi], 0));
+    let lengths = a[0].hypot(a[1]) * b[0].hypot(b[1]);
+    a[0] * b[0] + a[1] * b[1] > 0.0 && (a[0] * b[1] - a[1] * b[0]).abs() <= SMOOTH * lengths
 }

@@ -49,6 +49,7 @@ fn a_patch_from_a_file_is_refined_without_another_shape() {
     let finer = format!("{FROM_FILE}\ndegree = [3, 2]\nsubdivisions = [4, 2]");
     let resolved = read(&folder, &finer, PATCH).unwrap_or_else(|error| panic!("{}", render(&error)));
     let Some(Space::Patch(patch)) = &resolved.shapes.structure else { panic!("no patch") };
+    let patch = patch.spline();
     // The degree comes first: 4 cubic elements are as smooth as they can be.
     assert_eq!(patch.control_points().len(), (4 + 3) * (2 + 2));
     let [x, y] = patch.point(&[0.3, 0.6]);

@@ -150,7 +150,7 @@ fn a_file_without_a_name_is_refused() {
        ·         ╰── out of range
     14 │ 
        ╰────
-     help: File of format 2.2 or 4.1, text or binary, relative to the scene's folder.
+     help: File of format 2.0 to 2.2 or 4.1, text or binary, relative to the scene's folder.
     "#);
 }
 
@@ -311,7 +311,7 @@ fn a_boundary_that_is_not_covered_is_named_with_its_place() {
 #[test]
 fn an_inverted_triangle_is_named_with_its_place() {
     assert_snapshot!(broken(|mesh| mesh.triangles[3].swap(0, 1)), @r#"
-     × tank.msh: 1 of 8 cells are inverted, the first at (0.666667, 0.333333) m
+     × tank.msh: 1 of 8 cells are oriented against the others, the first at (0.666667, 0.333333) m
        ╭─[scene.toml:13:8]
     12 │ [fluid.mesh.gmsh]
     13 │ file = "tank.msh"
@@ -319,8 +319,13 @@ fn an_inverted_triangle_is_named_with_its_place() {
        ·             ╰── this mesh
     14 │ 
        ╰────
-     help: surfaces are oriented differently, or cells overlap: use `ReverseMesh Surface{...};` for
-           the ones turned, or remesh
+     help: if cells overlap, remesh; else turn the clockwise ones in Python (`pip install gmsh`):
+           import gmsh
+           gmsh.initialize(); gmsh.open("old.msh"); mesh = gmsh.model.mesh
+           cells = mesh.getElementsByType(2)[0]
+           z = mesh.getJacobians(2, [0, 0, 0])[0][8::9]
+           mesh.reverseElements([cell for cell, up in zip(cells, z) if up < 0])
+           gmsh.write("new.msh")
     "#);
 }
 

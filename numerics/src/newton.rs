@@ -8,6 +8,8 @@ mod chord_tests;
 mod failure;
 mod kept;
 mod norm;
+#[cfg(test)]
+mod round_off_tests;
 mod run;
 mod settings;
 #[cfg(test)]

@@ -61,8 +61,8 @@ pub enum Failure<E> {
     },
     /// The residual stands still above its bound, and above its round-off.
     #[error(
-        "Newton iteration {iteration}: the residual stands still at {residual}; the bound is {bound}{}\n\
-         hint: the tangent may be nearly singular, or the bound ask for more than the arithmetic can give", compared(*round_offs)
+        "Newton iteration {iteration}: the residual stands still at {residual}{}; the bound is {bound}\n\
+         hint: the tangent may be nearly singular, or the bound may ask for more than the arithmetic can give", compared(*round_offs)
     )]
     Stagnated {
         /// The iteration, from 1.

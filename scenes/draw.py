@@ -26,6 +26,9 @@ from PIL import Image
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
+# The scale of the flow has no such colour.
+STRUCTURE = "tab:red"
+
 
 def collection(run, name):
     """Times and files of a PVD collection."""
@@ -64,7 +67,7 @@ def picture(run, out, time, window):
     axes.triplot(points[:, 0], points[:, 1], cells, color="white", linewidth=0.25, alpha=0.5)
     _, file = nearest(collection(run, "structure"), time)
     points, cells, _ = grid(file)
-    solid = PolyCollection([points[cell] for cell in cells], facecolor="tab:red", edgecolor="none")
+    solid = PolyCollection([points[cell] for cell in cells], facecolor=STRUCTURE, edgecolor=STRUCTURE, linewidth=0.5)
     axes.add_collection(solid)
     figure.colorbar(shown, label="speed [m/s]", shrink=0.8)
     axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]", title=f"t = {time:g} s")
@@ -73,8 +76,22 @@ def picture(run, out, time, window):
     figure.tight_layout()
     drawn = io.BytesIO()
     figure.savefig(drawn)
-    # 128 colours are enough here and keep the file small.
-    Image.open(drawn).convert("RGB").quantize(128).save(out, optimize=True)
+    # A palette of few colours keeps the file small, but may have none left for a slender structure.
+    whole = Image.open(drawn).convert("RGB")
+    reduced = whole.quantize(255, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+    if share_of(reduced.convert("RGB")) < 0.5 * share_of(whole):
+        reduced = whole
+    if share_of(whole) == 0:
+        sys.exit(f"{out}: the structure cannot be seen; look closer with --window")
+    reduced.save(out, optimize=True)
+
+
+def share_of(drawn):
+    """Part of the pixels that have about the colour of the structure."""
+    wanted = [255 * part for part in matplotlib.colors.to_rgb(STRUCTURE)]
+    colours = drawn.getcolors(drawn.width * drawn.height)
+    near = (count for count, colour in colours if max(abs(a - b) for a, b in zip(colour, wanted)) < 40)
+    return sum(near) / (drawn.width * drawn.height)
 
 
 def probe(run, column, out):

@@ -1,5 +1,10 @@
 //! Drawings of measured numbers, as SVG text: no files, no fonts, no dependencies.
 
 pub mod axis;
+pub mod legible;
+pub mod map;
+pub mod plot;
+pub mod style;
 pub mod svg;
+pub mod text;
 pub mod work_precision;

@@ -67,6 +67,18 @@ impl Svg {
 
     /// A line of text on a baseline.
     pub fn text(&mut self, place: [f64; 2], size: f64, anchor: Anchor, fill: Colour, text: &str) {
+        self.text_of_class(place, size, anchor, fill, "", text);
+    }
+
+    fn text_of_class(
+        &mut self,
+        place: [f64; 2],
+        size: f64,
+        anchor: Anchor,
+        fill: Colour,
+        class: &str,
+        text: &str,
+    ) {
         let [x, y] = place;
         let anchor = match anchor {
             Anchor::Start => "start",
@@ -74,10 +86,16 @@ impl Svg {
             Anchor::End => "end",
         };
         self.line(&format!(
-            r#"<text x="{x:.2}" y="{y:.2}" font-size="{size}" text-anchor="{anchor}" fill="{}">{}</text>"#,
+            r#"<text{class} x="{x:.2}" y="{y:.2}" font-size="{size}" text-anchor="{anchor}" fill="{}">{}</text>"#,
             fill.hex(),
             escaped(text)
         ));
+    }
+
+    /// The label of a tick; those of one axis share its name.
+    pub fn tick(&mut self, place: [f64; 2], size: f64, anchor: Anchor, axis: &str, text: &str) {
+        let class = format!(r#" class="tick {}""#, escaped(axis));
+        self.text_of_class(place, size, anchor, Colour::BLACK, &class, text);
     }
 
     /// A line of text that runs upwards through its place, its middle there.
@@ -92,13 +110,22 @@ impl Svg {
 
     /// Straight lines through points.
     pub fn path(&mut self, points: &[[f64; 2]], stroke: Colour, width: f64, dash: Dash) {
+        self.polyline(points, "", stroke, width, dash);
+    }
+
+    /// The curve of a series. Whoever draws one series in parts, or a sample of it in a legend, names it alike.
+    pub fn series(&mut self, points: &[[f64; 2]], name: &str, stroke: Colour, width: f64, dash: Dash) {
+        self.polyline(points, &format!(r#" class="series {}""#, escaped(name)), stroke, width, dash);
+    }
+
+    fn polyline(&mut self, points: &[[f64; 2]], class: &str, stroke: Colour, width: f64, dash: Dash) {
         let dash = match dash {
             Dash::None => "",
             Dash::Long => r#" stroke-dasharray="6 4""#,
             Dash::Dots => r#" stroke-dasharray="1.5 3""#,
         };
         self.line(&format!(
-            r#"<polyline points="{}" fill="none" stroke="{}" stroke-width="{width}"{dash}/>"#,
+            r#"<polyline{class} points="{}" fill="none" stroke="{}" stroke-width="{width}"{dash}/>"#,
             joined(points),
             stroke.hex()
         ));
@@ -121,8 +148,8 @@ impl Svg {
         ));
     }
 
-    /// A bar of the colours from `low` (below) to `high` (above), with both written beside it.
-    pub fn colour_bar(&mut self, corner: [f64; 2], size: [f64; 2], low: &str, high: &str) {
+    /// A bar of the colours, the first below, with labels at parts of its height.
+    pub fn colour_bar(&mut self, corner: [f64; 2], size: [f64; 2], labels: &[(f64, String)]) {
         const STRIPES: usize = 40;
         let ([x, y], [width, height]) = (corner, size);
         for stripe in 0..STRIPES {
@@ -130,8 +157,11 @@ impl Svg {
             let top = y + height * (1.0 - part - 1.0 / STRIPES as f64);
             self.rectangle([x, top], [width, height / STRIPES as f64 + 0.5], Colour::on_scale(part));
         }
-        self.text([x + width + 5.0, y + 10.0], 11.0, Anchor::Start, Colour::BLACK, high);
-        self.text([x + width + 5.0, y + height], 11.0, Anchor::Start, Colour::BLACK, low);
+        for (part, label) in labels {
+            let tick = y + height * (1.0 - part);
+            self.path(&[[x + width, tick], [x + width + 3.0, tick]], Colour::GREY, 1.0, Dash::None);
+            self.tick([x + width + 6.0, tick + 4.0], 11.0, Anchor::Start, "colour", label);
+        }
     }
 
     fn line(&mut self, element: &str) {
@@ -176,8 +206,9 @@ impl Colour {
     pub const PALE: Self = Self([224.0; 3]);
     /// Nearly white, for what lies behind a grid.
     pub const MIST: Self = Self([240.0; 3]);
-    /// Colours that colour-blind readers tell apart (Okabe and Ito 2008).
-    pub const LINES: [Self; 7] = [
+    /// Colours that colour-blind readers tell apart (Okabe and Ito 2008; the last one is ours, their yellow being too pale
+    /// for a line on white).
+    pub const LINES: [Self; 8] = [
         Self([0.0, 114.0, 178.0]),
         Self([213.0, 94.0, 0.0]),
         Self([0.0, 158.0, 115.0]),
@@ -185,6 +216,7 @@ impl Colour {
         Self([230.0, 159.0, 0.0]),
         Self([86.0, 180.0, 233.0]),
         Self([0.0, 0.0, 0.0]),
+        Self([124.0, 72.0, 20.0]),
     ];
 
     /// Dark blue at 0 over green to yellow at 1; rising in brightness, so that it survives a copier.
@@ -243,6 +275,16 @@ mod tests {
             (Colour::on_scale(0.0).ink(), Colour::on_scale(1.0).ink()),
             (Colour::WHITE, Colour::BLACK)
         );
+    }
+
+    #[test]
+    fn no_two_colours_of_lines_are_near_each_other() {
+        for (index, one) in Colour::LINES.iter().enumerate() {
+            for other in &Colour::LINES[index + 1..] {
+                let distance: f64 = one.0.iter().zip(other.0).map(|(a, b)| (a - b).powi(2)).sum();
+                assert!(distance.sqrt() > 60.0, "{one:?} and {other:?}");
+            }
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! composes one call from the primitives of [`Field`] and the one Newton loop, and measures what the call changed and
 //! what it cost. It holds no numerics of its own.
 
+mod backflow;
 mod field;
 mod slot;
 mod solvers;
@@ -19,7 +20,7 @@ use partita_numerics::norms::{norm2, relative, relative_change};
 use partita_numerics::phases::PhaseSeconds;
 use serde::{Deserialize, Serialize};
 
-pub use field::Field;
+pub use field::{Field, Suspect};
 pub use slot::{Misfit, Slot, SlotState};
 
 /// A field as a participant of the coupling.
@@ -90,7 +91,10 @@ impl<F: Field> Adapter<F> {
         (0..self.field.part_count())
             .map(|index| {
                 let (name, dofs) = self.field.part(index);
-                Change::new(name, relative_change(&self.entry, self.field.values(), dofs))
+                Change::new(
+                    name,
+                    relative_change(&self.entry, self.field.values(), dofs, self.field.resolution(index)),
+                )
             })
             .collect()
     }
@@ -111,6 +115,10 @@ where
 
     fn output(&self) -> &[Block] {
         &self.output
+    }
+
+    fn resolution(&self) -> f64 {
+        self.field.output_resolution()
     }
 
     fn begin_step(&mut self, step: &Step) -> Result<(), ParticipantError> {
@@ -181,6 +189,9 @@ fn loop_limit(limit: NewtonLimit) -> (Limit, Option<f64>) {
     }
 }
 
+/// A residual above this part of the largest term of its equations is a load that nothing balances.
+const BALANCED: f64 = 1e-3;
+
 fn effort(report: &Report, bound: Bound, changes: Vec<Change>, phases: PhaseSeconds) -> Effort {
     let measured = |norm: &ResidualNorm| match bound {
         Bound::Relative(_) => norm.relative,
@@ -193,8 +204,10 @@ fn effort(report: &Report, bound: Bound, changes: Vec<Change>, phases: PhaseSeco
         solves: report.solves,
         entry_residual: measured(&report.entry),
         residual: measured(&report.exit),
-        entry_converged: bound.met(&report.entry),
+        entry_converged: report.entry_converged,
         converged: report.converged,
+        at_round_off: report.at_round_off,
+        idle_under_load: report.iterations == 0 && !report.at_round_off && report.entry.relative > BALANCED,
         changes,
         time: PhaseTimes {
             assembly: phases.assembly,
@@ -224,12 +237,41 @@ where
         Failure::Problem { iteration, source } => {
             let mut error = field_error::<F>(source);
             error.message = format!("Newton iteration {iteration}: {}", error.message);
-            return error;
+            return with_suspect(error, field.suspect());
         }
         other => split_hint(F::NAME, &other.to_string()),
     };
     if let Some(worst) = field.worst_equation() {
         error.message = format!("{}; it is largest for {worst}", error.message);
+    }
+    if let Some(hint) = key_of(F::NAME, failure) {
+        error.hint = Some(hint);
+    }
+    with_suspect(error, field.suspect())
+}
+
+/// The advice of a failed loop with the keys of the scene, where there are some to turn.
+fn key_of<E>(field: &str, failure: &Failure<E>) -> Option<String> {
+    match failure {
+        Failure::TooManyIterations { .. } => Some(format!(
+            "a residual that still falls needs a larger `{field}.newton.max_iterations`, one that does not a smaller time step"
+        )),
+        Failure::Stagnated { .. } => Some(format!(
+            "look for a nearly singular state (buckling, a piece that is hardly held); where such a residual is good enough, \
+             raise `{field}.newton.tolerance`"
+        )),
+        Failure::Problem { .. } | Failure::NotFinite { .. } | Failure::Diverged { .. } => None,
+    }
+}
+
+/// Names a known cause of failures beside the advice of the error itself.
+fn with_suspect(mut error: ParticipantError, suspect: Option<Suspect>) -> ParticipantError {
+    if let Some(Suspect { advice, comes_first }) = suspect {
+        error.hint = Some(match error.hint {
+            None => advice,
+            Some(hint) if comes_first => format!("{advice}; otherwise {hint}"),
+            Some(hint) => format!("{hint}; {advice}"),
+        });
     }
     error
 }

@@ -3,15 +3,13 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
-/// Partitioned fluid-structure interaction from a scene file.
+/// Two-dimensional fluid-structure interaction with partitioned solvers.
 #[derive(Debug, Parser)]
 #[command(name = "partita", version, arg_required_else_help = true)]
-#[command(
-    after_help = "Exit codes: 0 done, 2 the scene or the command line is wrong (nothing was written), \
-3 the run failed, 130 interrupted."
-)]
+#[command(after_help = "Exit codes: 0 done; 2 the scene or the command line is wrong, nothing was written; \
+3 the run failed; 130 interrupted.")]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -19,17 +17,19 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Run a scene from its first step.
+    /// Run a scene.
     Run(Run),
-    /// Read and build a scene, say what it is, and run nothing.
+    /// Build a scene without running it, and report its meshes, settings and errors.
     Check(Check),
-    /// Say which effects of a scene run, which do not, and why; build and run nothing.
+    /// List the effects that a scene needs and those that it does not, with the reason.
     Plan(Plan),
-    /// Take up a run at its last checkpoint.
+    /// Continue a run from its last checkpoint.
     Resume(Resume),
-    /// Run a scene at many settings and show what accuracy costs.
+    /// Print the coupling iterations or the steps of a run as a CSV table.
+    Table(Table),
+    /// Measure error against computing time over many settings of a scene.
     Study(Study),
-    /// Run a scene over two parameters and some choices, and draw a map of what converges.
+    /// Sweep two parameters of a scene and map where it converges.
     Stability(Stability),
 }
 
@@ -37,13 +37,13 @@ pub(crate) enum Command {
 pub(crate) struct Run {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Folder for the output [default: runs/<name of the scene>].
+    /// Output folder [default: runs/<name of the scene>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace the run in the output folder.
+    /// Replace an earlier run in the output folder.
     #[arg(long)]
     pub(crate) force: bool,
-    /// Run nothing where the scene gives a warning that it does not accept.
+    /// Refuse to run a scene with a warning that it does not accept (exit code 2).
     #[arg(long)]
     pub(crate) deny_warnings: bool,
     #[command(flatten)]
@@ -54,7 +54,7 @@ pub(crate) struct Run {
 pub(crate) struct Check {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// End with exit code 2 where the scene gives a warning that it does not accept.
+    /// Treat every warning that the scene does not accept as an error (exit code 2).
     #[arg(long)]
     pub(crate) deny_warnings: bool,
     /// Print the description, the warnings and the errors as JSON.
@@ -78,49 +78,66 @@ pub(crate) struct Resume {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct Table {
+    /// Output folder of the run.
+    #[arg(value_name = "DIR")]
+    pub(crate) dir: PathBuf,
+    /// One row for each coupling iteration, or for each time step.
+    #[arg(long, value_enum, default_value = "iterations")]
+    pub(crate) rows: Rows,
+}
+
+/// `--rows`.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum Rows {
+    Iterations,
+    Steps,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct Study {
-    /// Study file: a scene, choices and refinements, and what they are measured against.
+    /// Study file: a scene, its refinements and choices, and the reference they are compared with.
     #[arg(value_name = "STUDY")]
     pub(crate) file: PathBuf,
-    /// Folder for the output [default: runs/<name of the study>].
+    /// Output folder [default: runs/<name of the study>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace the study in the output folder.
+    /// Replace an earlier study in the output folder.
     #[arg(long)]
     pub(crate) force: bool,
-    /// Name the cheapest setting with at most this error, instead of the study's own.
+    /// Find the cheapest setting with at most this error, instead of the error named in the study.
     #[arg(long, value_name = "ERROR", value_parser = positive)]
     pub(crate) wanted: Option<f64>,
-    /// Show no progress and print nothing.
+    /// Show no progress bar and print nothing.
     #[arg(long)]
     pub(crate) quiet: bool,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct Stability {
-    /// Map file; the library's documentation of `stability` and docs/stability.md say what stands in it.
+    /// Map file: a scene, two parameters and the choices to compare; see docs/stability.md.
     #[arg(value_name = "MAP")]
     pub(crate) path: PathBuf,
-    /// Folder for table and picture; finished cells in it are not run again [default: runs/<name of the map>].
+    /// Output folder; cells that are finished there are not run again [default: runs/<name of the map>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Cells run at a time; the results are the same for any number [default: as many as there are processors].
+    /// Number of cells to run at the same time; it does not affect the results [default: number of processors].
     #[arg(long, value_name = "N")]
     pub(crate) jobs: Option<NonZeroUsize>,
     /// Run all cells again.
     #[arg(long)]
     pub(crate) force: bool,
-    /// Show no progress and print nothing.
+    /// Show no progress bar and print nothing.
     #[arg(long)]
     pub(crate) quiet: bool,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct SceneArguments {
-    /// Scene file, or a folder with a scene.toml in it.
+    /// Scene file, or a folder that contains a scene.toml.
     #[arg(value_name = "SCENE")]
     pub(crate) path: PathBuf,
-    /// Set one key of the scene, such as `time.steps=3`; may be repeated.
+    /// Override one key of the scene, for example `time.steps=3`; can be repeated.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) overrides: Vec<String>,
 }
@@ -128,13 +145,13 @@ pub(crate) struct SceneArguments {
 /// How a run is carried out; none of it changes a number.
 #[derive(Debug, Args)]
 pub(crate) struct Manner {
-    /// Stop after this many steps of the scene; the run can be resumed.
+    /// Stop after this many steps; the run can be resumed.
     #[arg(long, value_name = "N")]
     pub(crate) steps: Option<NonZeroUsize>,
-    /// Threads that solve the fluid's linear systems; up to 10000 unknowns there is one in any case.
+    /// Threads for the linear systems of the fluid; systems of up to 10000 unknowns always use one.
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) threads: NonZeroUsize,
-    /// Show no progress and print no table.
+    /// Show no progress bar and print no summary.
     #[arg(long)]
     pub(crate) quiet: bool,
     /// Print the summary as JSON.

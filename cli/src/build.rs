@@ -1,6 +1,8 @@
 //! From a validated scene to a run that can be stepped.
 
 mod coupling;
+#[cfg(test)]
+mod defaults;
 mod fluid;
 mod interface;
 mod structure;

@@ -1,5 +1,6 @@
 //! What a scene is, in words and numbers, before it runs.
 
+mod balance;
 mod inflow;
 
 use std::collections::BTreeMap;
@@ -11,11 +12,22 @@ use partita_iga::seam::Seams;
 use partita_mesh::{Mesh, Place, quality, simplex};
 use partita_structure::{Space, StructureSolver};
 
-use crate::build::Run;
+use crate::build::{BuildError, Run};
 use crate::memory;
 use crate::scene::schema::{Component, Condition, Coupling, Direction, Fluid, Part, Structure, plain};
 use crate::scene::{Content, Resolved, Role, words};
 use inflow::Inflow;
+
+/// Looks ahead to what a run would stop at in a later step: an enclosed fluid that does not keep its volume.
+///
+/// # Errors
+/// What the run would stop at, with its time.
+pub fn look_ahead(resolved: &Resolved, run: &Run) -> Result<(), BuildError> {
+    match run.first().field() {
+        Some(fluid) => Ok(balance::check(fluid, &resolved.scene.time)?),
+        None => Ok(()),
+    }
+}
 
 /// Describes a scene and the run that was built from it: title, meshes with their boundary groups, splines, interface,
 /// choices. The last line is `scene is sound`.
@@ -28,7 +40,9 @@ pub fn describe(resolved: &Resolved, run: &Run) -> String {
     page.line("time", format!("{steps} steps of {step} s, to t = {} s", short(steps as f64 * step.get())));
     if let (Some(scene), Some(fluid)) = (&scene.fluid, fluid) {
         page.fluid(scene, fluid);
-        inflow::all(&resolved.scene, fluid).iter().for_each(|inflow| page.inflow(inflow));
+        for inflow in inflow::all(&resolved.scene, fluid) {
+            page.inflow(&inflow);
+        }
         page.file(resolved.shapes.fluid_file.as_ref());
     }
     if let (Some(scene), Some(structure)) = (&scene.structure, structure) {

@@ -6,6 +6,7 @@ pub mod check;
 pub mod checkpoint;
 mod draw;
 pub mod expression;
+mod file_kind;
 pub mod memory;
 mod nearest;
 pub mod output;

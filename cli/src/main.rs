@@ -2,6 +2,7 @@
 
 mod args;
 mod failure;
+mod standing;
 
 use std::fs;
 use std::io::{self, ErrorKind, Write as _};
@@ -10,13 +11,18 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Parser;
+use partita::output::tables::{self, TableError};
 use partita::output::{Clock, Ending, Summary};
+use partita::scene::Resolved;
 use partita::session::{Options, RunError, Session};
 use partita::warning::{self, Warning};
 use partita::{build, check, output, plan, scene, stability, study};
 
-use args::{Arguments, Check, Command, Manner, Plan, Resume, Run, SceneArguments, Stability, Study};
+use args::{
+    Arguments, Check, Command, Manner, Plan, Resume, Rows, Run, SceneArguments, Stability, Study, Table,
+};
 use failure::Failure;
+use standing::Standing;
 
 /// Set when the user asks to stop; the run ends after its step.
 static STOP: AtomicBool = AtomicBool::new(false);
@@ -31,6 +37,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check(&arguments),
         Command::Plan(arguments) => plan(&arguments),
         Command::Resume(arguments) => resume(&arguments, clock),
+        Command::Table(arguments) => table(&arguments),
         Command::Study(arguments) => study(&arguments),
         Command::Stability(arguments) => stability(&arguments),
     };
@@ -48,6 +55,7 @@ fn run(arguments: &Run, clock: Clock) -> Result<ExitCode, Failure> {
         warn(&warnings);
     }
     deny(&warnings, arguments.deny_warnings)?;
+    beyond_the_end(&arguments.manner, &resolved);
     if arguments.force {
         output::remove_run(&dir)?;
     }
@@ -79,6 +87,7 @@ struct Checked {
 fn look_at(scene: &SceneArguments) -> Result<Checked, Failure> {
     let resolved = scene::load(&scene.path, &scene.overrides)?;
     let run = build::run(&resolved)?;
+    check::look_ahead(&resolved, &run)?;
     Ok(Checked { description: check::describe(&resolved, &run), warnings: warning::of(&resolved, &run) })
 }
 
@@ -122,8 +131,54 @@ fn resume(arguments: &Resume, clock: Clock) -> Result<ExitCode, Failure> {
         return Err(Failure::no_run(&arguments.dir));
     }
     let resolved = scene::load(&arguments.dir, &[])?;
+    beyond_the_end(&arguments.manner, &resolved);
+    if let Some(standing) = standing::nothing_left(&resolved, &arguments.dir, arguments.manner.steps)? {
+        return nothing_to_do(&standing, &arguments.dir, &arguments.manner);
+    }
     let session = Session::resume(&resolved, &arguments.dir, options(&arguments.manner), clock)?;
     finish(session, &arguments.dir, &arguments.manner)
+}
+
+fn table(arguments: &Table) -> Result<ExitCode, Failure> {
+    if !arguments.dir.join(output::RECORDS).is_file() {
+        return Err(Failure::no_run(&arguments.dir));
+    }
+    let rows = match arguments.rows {
+        Rows::Iterations => tables::Rows::Iterations,
+        Rows::Steps => tables::Rows::Steps,
+    };
+    let mut stdout = io::BufWriter::new(io::stdout().lock());
+    let written = tables::write(&arguments.dir, rows, &mut stdout)
+        .and_then(|()| stdout.flush().map_err(TableError::Write));
+    match written {
+        Err(TableError::Write(error)) if error.kind() == ErrorKind::BrokenPipe => Ok(ExitCode::SUCCESS),
+        Err(TableError::Write(error)) => Err(Failure::no_stdout(&error)),
+        Err(TableError::Records(error)) => Err(error.into()),
+        Ok(()) => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// Says that a run has no step left to make, and is left as it is.
+fn nothing_to_do(standing: &Standing, dir: &Path, manner: &Manner) -> Result<ExitCode, Failure> {
+    if !manner.quiet {
+        eprintln!("{standing}");
+    }
+    if manner.json
+        && let Ok(summary) = fs::read_to_string(dir.join(output::SUMMARY))
+    {
+        print(&summary)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A note where more steps are asked for than the scene has.
+fn beyond_the_end(manner: &Manner, resolved: &Resolved) {
+    let steps = resolved.scene.time.steps;
+    if let Some(asked) = manner.steps.filter(|asked| asked.get() > steps.get() && !manner.quiet) {
+        eprintln!(
+            "note: --steps {asked} asks for more than the {steps} steps of the scene, where the run ends; `time.steps` says how many there are"
+        );
+    }
 }
 
 fn study(arguments: &Study) -> Result<ExitCode, Failure> {
@@ -222,6 +277,15 @@ fn comment(summary: &Summary, dir: &Path) {
         eprintln!(
             "warning: {unconverged_steps} of {steps} steps ended on the iteration bound, not converged"
         );
+    }
+    for (field, work) in [("fluid", &summary.fluid), ("structure", &summary.structure)] {
+        if work.idle_steps > 0 {
+            eprintln!(
+                "warning: the {field} made no Newton iteration in {} of {steps} steps, although more than a thousandth of its \
+                 load was not balanced: `{field}.newton.tolerance` is too large for this load",
+                work.idle_steps
+            );
+        }
     }
     eprintln!("output in {dir}");
     if matches!(summary.ending, Ending::Interrupted | Ending::Stopped) {

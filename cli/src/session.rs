@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use partita_coupling::{IterationRecord, MarchState, Observer, RetryRecord, StepError, StepRecord};
 use partita_fluid::FluidState;
+use partita_numerics::time::shown;
 use partita_structure::StructureState;
 use serde::{Deserialize, Serialize};
 
@@ -55,7 +56,7 @@ pub enum RunError {
     #[error(transparent)]
     Output(#[from] OutputError),
     /// What a step came to could not be written.
-    #[error("step {step} (t = {time} s), output: {}\nhint: see that the folder can be written and has space; {}", first_line(source), way_back(dir, *checkpoint))]
+    #[error("step {step} (t = {} s), output: {}\nhint: see that the folder can be written and has space; {}", shown(*time), first_line(source), way_back(dir, *checkpoint))]
     Storage {
         /// The last step that was solved.
         step: usize,
@@ -285,6 +286,15 @@ impl<'a> Session<'a> {
     }
 }
 
+/// Steps of the scene that the checkpoint in the folder of a run has behind it.
+///
+/// # Errors
+/// When there is no usable checkpoint.
+pub fn steps_done(resolved: &Resolved, dir: &Path) -> Result<usize, RunError> {
+    let checkpoint = checkpoint::load::<RunState>(dir)?;
+    Ok(resolved.scene.time.sizes().done(&checkpoint.state.march.clock))
+}
+
 /// Coupling iterations that a step is taken to need when its records are estimated.
 const ITERATIONS_A_STEP: usize = 8;
 
@@ -405,7 +415,11 @@ impl Observer for Watch<'_> {
         }
         self.progress.say(&format!(
             "step {} (t = {} s) of {} s failed, goes on with {} s: {}",
-            record.step, record.time, record.dt, record.next_dt, record.cause
+            record.step,
+            shown(record.time),
+            shown(record.dt),
+            shown(record.next_dt),
+            record.cause
         ));
     }
 }

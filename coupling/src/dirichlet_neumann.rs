@@ -14,7 +14,7 @@
 use std::time::Instant;
 
 use crate::divergence;
-use crate::error::{ParticipantError, StepFailure};
+use crate::error::{IdleField, ParticipantError, StepFailure};
 use crate::march::{AtLimit, Choices};
 use crate::observe::Observer;
 use crate::participant::Participant;
@@ -126,7 +126,11 @@ pub fn solve_step(
             step: history.step.index,
             iteration,
             residual,
-            relative_residual: ratio(residual, norm(&interface.x_tilde)),
+            relative_residual: if residual <= second.resolution() {
+                0.0
+            } else {
+                ratio(residual, norm(&interface.x_tilde))
+            },
             work_defect: interface.work_defect(),
             fields: [first_record, second_record],
             acceleration: None,
@@ -140,6 +144,7 @@ pub fn solve_step(
             record.acceleration = Some(accelerator.propose(&mut interface.x, &interface.r));
             record.seconds.acceleration += lap(&mut clock);
         }
+        record.seconds = record.seconds.to_the_microsecond();
         observer.iteration(record);
         if converged {
             return Ok(true);
@@ -150,7 +155,7 @@ pub fn solve_step(
         check_finite(&interface.x, "acceleration", second.output())?;
     }
     match at_limit {
-        AtLimit::Fail => Err(too_many_iterations(history)),
+        AtLimit::Fail => Err(too_many_iterations(history, norm(&interface.x_tilde), second.resolution())),
         AtLimit::Accept => Ok(false),
     }
 }
@@ -193,7 +198,33 @@ fn check_finite(values: &[f64], origin: &str, blocks: &[Block]) -> Result<(), St
     }
 }
 
-fn too_many_iterations(history: &StepHistory) -> StepFailure {
+/// Coupling iterations at the end of a step in which a field must have moved, unless none of them needs it to.
+const LATELY: usize = 5;
+
+/// Fields that have not moved lately, where the interface has. (Where it has not, there is nothing to answer.)
+fn idle_fields(history: &StepHistory) -> Vec<IdleField> {
+    let done = history.iterations.len();
+    let moves = |iteration: &IterationRecord| iteration.residual > 0.0;
+    if done < LATELY || !history.iterations[done - LATELY..].iter().all(moves) {
+        return Vec::new();
+    }
+    let idle = |index: usize| {
+        // What is at round-off cannot answer, however low its bound.
+        if history.iterations[done - LATELY..].iter().any(|iteration| iteration.fields[index].at_round_off) {
+            return None;
+        }
+        let moved = history.iterations.iter().rposition(|iteration| iteration.fields[index].newton > 0);
+        let moved_last = moved.map_or(0, |position| position + 1);
+        let name = history.iterations[0].fields[index].name.clone();
+        (done - moved_last >= LATELY).then_some(IdleField { name, moved_last })
+    };
+    [0, 1].into_iter().filter_map(idle).collect()
+}
+
+/// An interface that moves by less than this many times its resolution hardly moves.
+const HARDLY: f64 = 1e4;
+
+fn too_many_iterations(history: &StepHistory, displacement: f64, resolution: f64) -> StepFailure {
     let last = history.last().expect("the iteration bound is at least one");
     let open: Vec<&str> =
         last.fields.iter().filter(|field| !field.converged).map(|field| field.name.as_str()).collect();
@@ -208,5 +239,7 @@ fn too_many_iterations(history: &StepHistory) -> StepFailure {
             format!("above the own residual bound: {}", open.join(", "))
         },
         stands_since: divergence::stands_since(history),
+        idle: idle_fields(history),
+        hardly_moves: (displacement < HARDLY * resolution).then_some(displacement),
     }
 }

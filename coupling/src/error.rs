@@ -62,12 +62,14 @@ impl Error for ParticipantError {
 
 /// A step could not be finished. Both fields are back at the committed state, so it can be tried again.
 #[derive(Error)]
-#[error("step {} (t = {} s), {}{cause}", step.index, short(step.time), place(*iteration))]
+#[error("step {} (t = {} s), {}{cause}", step.index, short(step.time), place(*iteration, *coupled))]
 pub struct StepError {
     /// The step that failed.
     pub step: Step,
     /// The coupling iteration, counted from 1; 0 while the step was being opened.
     pub iteration: usize,
+    /// Whether there are two fields that iterate; if not, no message speaks of coupling.
+    pub coupled: bool,
     /// What went wrong.
     #[source]
     pub cause: Box<StepFailure>,
@@ -81,19 +83,22 @@ impl fmt::Debug for StepError {
         f.debug_struct("StepError")
             .field("step", &self.step)
             .field("iteration", &self.iteration)
+            .field("coupled", &self.coupled)
             .field("cause", &self.cause)
             .field("history", &format_args!("{} iterations", self.history.iterations.len()))
             .finish()
     }
 }
 
-/// Nine digits: times are products, and their last bits are noise to a reader.
-fn short(time: f64) -> f64 {
-    format!("{time:.8e}").parse().unwrap_or(time)
+/// Twelve digits: times are products, and their last bits are noise to a reader. (The same as `time::shown` of the numerics,
+/// which this crate does not know.)
+#[must_use]
+pub fn short(time: f64) -> f64 {
+    format!("{time:.11e}").parse().unwrap_or(time)
 }
 
-fn place(iteration: usize) -> String {
-    if iteration == 0 { String::new() } else { format!("coupling iteration {iteration}, ") }
+fn place(iteration: usize, coupled: bool) -> String {
+    if iteration == 0 || !coupled { String::new() } else { format!("coupling iteration {iteration}, ") }
 }
 
 /// Why a step failed.
@@ -125,7 +130,7 @@ pub enum StepFailure {
     },
     /// The iteration bound was reached without convergence.
     #[error(
-        "the step is not converged after {iterations} coupling iterations: |r| = {residual:.3e} m ({relative_residual:.3e} of the interface displacement), largest change {largest_change:.3e}, {open}{}", outlook(*stands_since)
+        "the step is not converged after {iterations} coupling iterations: |r| = {residual:.3e} m ({relative_residual:.3e} of the interface displacement), largest change {largest_change:.3e}, {open}{}", outlook(*stands_since, idle, *hardly_moves)
     )]
     TooManyIterations {
         /// The bound.
@@ -140,7 +145,29 @@ pub enum StepFailure {
         open: String,
         /// The iteration of the smallest residual, where many iterations since then have not found a smaller one.
         stands_since: Option<usize>,
+        /// The fields that have not moved lately although the interface has.
+        idle: Vec<IdleField>,
+        /// The norm of the interface displacement \[m\], where it is hardly more than round-off of the structure's size.
+        hardly_moves: Option<f64>,
     },
+}
+
+/// A field whose residual stays below its own bound whatever the coupling does, so that it does not answer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct IdleField {
+    /// The field.
+    pub name: String,
+    /// The last coupling iteration in which it made a Newton iteration; 0 if there is none.
+    pub moved_last: usize,
+}
+
+impl fmt::Display for IdleField {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.moved_last {
+            0 => write!(f, "the {} made no Newton iteration in this step", self.name),
+            last => write!(f, "the {} made no Newton iteration after coupling iteration {last}", self.name),
+        }
+    }
 }
 
 /// What the field that gave up said, before what the iteration did.
@@ -149,11 +176,27 @@ fn lead(field: Option<&ParticipantError>) -> String {
 }
 
 /// Whether more iterations would help.
-fn outlook(stands_since: Option<usize>) -> String {
+fn outlook(stands_since: Option<usize>, idle: &[IdleField], hardly_moves: Option<f64>) -> String {
+    let since = stands_since
+        .map_or_else(String::new, |iteration| format!("; |r| has not fallen since iteration {iteration}"));
+    if let Some(displacement) = hardly_moves {
+        return format!(
+            "{since}; the interface moves by {displacement:.1e} m in all, hardly more than round-off of its size\nhint: judge such a step \
+             by an absolute bound: `coupling.convergence = {{ interface_residual = {{ absolute = ... }} }}` in metres"
+        );
+    }
+    if !idle.is_empty() {
+        let list = |part: fn(&IdleField) -> String, and| idle.iter().map(part).collect::<Vec<_>>().join(and);
+        return format!(
+            "{since}; {}\nhint: its residual stays below its own bound, which is too loose for the coupling: lower {}",
+            list(ToString::to_string, ", "),
+            list(|field| format!("`{}.newton.tolerance`", field.name), " and "),
+        );
+    }
     match stands_since {
         None => "\nhint: raise the iteration bound, use a quasi-Newton method, or check that the tolerances can be met".to_owned(),
-        Some(iteration) => format!(
-            "; |r| has not fallen since iteration {iteration}\nhint: more iterations will not help; take a smaller relaxation factor, Aitken relaxation or a quasi-Newton method, or check that the tolerances can be met"
+        Some(_) => format!(
+            "{since}\nhint: more iterations will not help; take a smaller relaxation factor, Aitken relaxation or a quasi-Newton method, or check that the tolerances can be met"
         ),
     }
 }
@@ -243,6 +286,7 @@ mod tests {
         let error = StepError {
             step,
             iteration: 7,
+            coupled: true,
             cause: Box::new(cause.into()),
             history: Box::new(StepHistory::new(step)),
         };

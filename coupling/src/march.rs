@@ -222,7 +222,7 @@ impl<A: Participant, B: Participant> March<A, B> {
                 self.give_up();
                 let step = self.history.step;
                 let (cause, history) = (Box::new(cause), Box::new(self.history.clone()));
-                Err(StepError { step, iteration, cause, history })
+                Err(StepError { step, iteration, coupled: self.is_coupled(), cause, history })
             }
         }
     }
@@ -253,6 +253,11 @@ impl<A: Participant, B: Participant> March<A, B> {
             | StepFailure::NotFinite { .. }
             | StepFailure::Diverges { field: Some(_), .. } => finished + 1,
         }
+    }
+
+    /// Whether displacements come back to the first participant, so that there is something to iterate on.
+    fn is_coupled(&self) -> bool {
+        !self.interface.x.is_empty()
     }
 
     fn accept(&mut self, clock: Clock) {

@@ -82,7 +82,8 @@ impl AddAssign for WorkDetails {
 
 /// Relative change of one part of a field's solution within one call.
 ///
-/// `|s_exit - s_entry| / |s_exit|` over the free dofs of the part, 0/0 = 0; entry is the exit of the last
+/// `|s_exit - s_entry| / |s_exit|` over the free dofs of the part, 0/0 = 0, and 0 where the difference is round-off of the
+/// field's natural scale: of a part that is at rest nothing but round-off changes. Entry is the exit of the last
 /// call, at the first iteration of a step the solution the step starts from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Change {
@@ -116,6 +117,7 @@ impl Sub for WorkDetails {
 }
 
 /// What one call cost and reached.
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, each with its own name in records")]
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Effort {
     /// Newton iterations.
@@ -131,10 +133,15 @@ pub struct Effort {
     pub entry_residual: f64,
     /// Residual at the last iterate, measured like `entry_residual`.
     pub residual: f64,
-    /// Whether `entry_residual` met the field's bound.
+    /// Whether `entry_residual` met the field's bound, or was round-off.
     pub entry_converged: bool,
     /// Whether the field is below its own bound, as the field judges it.
     pub converged: bool,
+    /// Whether it is so because its residual is round-off: above the bound, but as small as the arithmetic can make it.
+    pub at_round_off: bool,
+    /// Whether no iteration was made although a good part of the load, more than round-off or a tight bound explains, was
+    /// not balanced.
+    pub idle_under_load: bool,
     /// Relative change of every part of the solution.
     pub changes: Vec<Change>,
     /// Where the time went.
@@ -157,6 +164,12 @@ pub trait Participant {
 
     /// What the output of [`advance`](Self::advance) means.
     fn output(&self) -> &[Block];
+
+    /// Norm below which a difference of two outputs is round-off of the field's natural scale, whatever their own size: a
+    /// displacement of less than the last bit of the coordinates, a load of less than that of the pressure.
+    fn resolution(&self) -> f64 {
+        0.0
+    }
 
     /// Opens the step: the solution starts from the committed one.
     ///
@@ -197,6 +210,9 @@ impl<P: Participant + ?Sized> Participant for Box<P> {
     }
     fn output(&self) -> &[Block] {
         (**self).output()
+    }
+    fn resolution(&self) -> f64 {
+        (**self).resolution()
     }
     fn begin_step(&mut self, step: &Step) -> Result<(), ParticipantError> {
         (**self).begin_step(step)

@@ -24,6 +24,7 @@ pub enum Record {
 }
 
 /// One call of one field.
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, each with its own name in records")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FieldRecord {
     /// The field.
@@ -44,10 +45,16 @@ pub struct FieldRecord {
     /// Residual at exit.
     #[serde(with = "finite_or_null")]
     pub residual: f64,
-    /// Whether the field met its bound at entry.
+    /// Whether the field met its bound at entry, or was at round-off.
     pub entry_converged: bool,
-    /// Whether the field meets its bound at exit.
+    /// Whether the field meets its bound at exit, or is at round-off.
     pub converged: bool,
+    /// Whether it converged because its residual was round-off, above its bound or already at the entry; left out of the record where not.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub at_round_off: bool,
+    /// Whether it did not iterate although a good part of its load was not balanced; left out of the record where not.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub idle_under_load: bool,
     /// Relative change of every part of the solution.
     pub changes: Vec<Change>,
     /// More of its work; nothing in records of older versions.
@@ -70,6 +77,8 @@ impl FieldRecord {
             residual: effort.residual,
             entry_converged: effort.entry_converged,
             converged: effort.converged,
+            at_round_off: effort.at_round_off,
+            idle_under_load: effort.idle_under_load,
             changes: effort.changes,
             details: effort.details,
         }
@@ -85,7 +94,7 @@ pub struct IterationRecord {
     pub iteration: usize,
     /// `|x_tilde - x|` \[m\].
     pub residual: f64,
-    /// `|x_tilde - x| / |x_tilde|`, 0/0 = 0.
+    /// `|x_tilde - x| / |x_tilde|`, 0/0 = 0, and 0 where the difference is round-off of the structure's size.
     #[serde(with = "finite_or_null")]
     pub relative_residual: f64,
     /// `|f . (H x) - F . x| / (|f| |H x|)`: the virtual work lost in the transfer, 0/0 = 0.
@@ -130,6 +139,13 @@ pub struct FieldTotals {
     /// More of its work; nothing in records of older versions.
     #[serde(default)]
     pub details: WorkDetails,
+    /// Calls that converged because their residual was round-off; left out of the record where there are none.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub at_round_off: usize,
+    /// Whether the field never iterated in the step although a good part of its load was not balanced; left out of the
+    /// record where not.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub idle_under_load: bool,
 }
 
 /// One finished step.
@@ -177,7 +193,7 @@ impl StepRecord {
             residual: last.residual,
             largest_change: last.largest_change(),
             fields: [history.totals(0), history.totals(1)],
-            seconds,
+            seconds: seconds.to_the_microsecond(),
         }
     }
 
@@ -220,7 +236,10 @@ impl StepHistory {
             totals.factorizations += call.factorizations;
             totals.solves += call.solves;
             totals.details += call.details;
+            totals.at_round_off += usize::from(call.at_round_off);
+            totals.idle_under_load |= call.idle_under_load;
         }
+        totals.idle_under_load &= totals.newton == 0;
         totals
     }
 }
@@ -245,6 +264,20 @@ pub struct Seconds {
     pub acceleration: f64,
 }
 
+impl Seconds {
+    /// The same to the microsecond: a clock knows no more, and a fifth of a record's bytes would be such digits.
+    #[must_use]
+    pub fn to_the_microsecond(mut self) -> Self {
+        let round = |seconds: &mut f64| *seconds = (*seconds * 1e6).round() / 1e6;
+        for FieldSeconds { total, phases } in &mut self.fields {
+            let PhaseTimes { assembly, factorization, solve, mesh_motion } = phases;
+            [total, assembly, factorization, solve, mesh_motion].into_iter().for_each(round);
+        }
+        [&mut self.transfer, &mut self.acceleration].into_iter().for_each(round);
+        self
+    }
+}
+
 impl AddAssign for Seconds {
     fn add_assign(&mut self, other: Self) {
         for (sum, field) in self.fields.iter_mut().zip(other.fields) {
@@ -254,6 +287,16 @@ impl AddAssign for Seconds {
         self.transfer += other.transfer;
         self.acceleration += other.acceleration;
     }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature is serde's")]
+fn is_false(flag: &bool) -> bool {
+    !flag
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature is serde's")]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 /// JSON knows no infinity: a ratio to zero is written as `null` and read back as infinity.
@@ -287,6 +330,8 @@ pub(crate) mod samples {
                 residual: 1e-12,
                 entry_converged,
                 converged,
+                at_round_off: false,
+                idle_under_load: false,
                 changes: vec![Change::new(part, value)],
                 time: PhaseTimes::default(),
                 details: WorkDetails { tangents: 2, mesh_solves: 1, ..WorkDetails::default() },
@@ -344,6 +389,45 @@ mod tests {
         assert_eq!((record.fields[0].details.tangents, record.fields[0].details.mesh_solves), (4, 2));
         assert_eq!(record.seconds.transfer.to_bits(), 2.0_f64.to_bits());
         assert_eq!(record.without_seconds().seconds, Seconds::default());
+    }
+
+    #[test]
+    fn seconds_are_rounded_to_the_microsecond() {
+        let phases = PhaseTimes { assembly: 0.002_449_383_999_999_999_8, ..PhaseTimes::default() };
+        let field = FieldSeconds { total: 1.234_567_89, phases };
+        let seconds = Seconds { fields: [field; 2], transfer: 4e-7, acceleration: 6e-7 };
+        let line = serde_json::to_string(&seconds.to_the_microsecond()).unwrap();
+        for needed in
+            ["\"total\":1.234568,", "\"assembly\":0.002449,", "\"transfer\":0.0,", "\"acceleration\":1e-6"]
+        {
+            assert!(line.contains(needed), "{needed} is not in {line}");
+        }
+    }
+
+    #[test]
+    fn a_field_is_idle_in_a_step_if_it_never_iterated_under_its_load() {
+        let mut history = samples::history([0.0, 0.0], true, true);
+        let call = &mut history.iterations[0].fields[1];
+        (call.newton, call.idle_under_load, call.at_round_off) = (0, true, true);
+        history.iterations.push(history.iterations[0].clone());
+        let [fluid, structure] = StepRecord::new(&history, true).fields;
+        assert_eq!((fluid.idle_under_load, fluid.at_round_off), (false, 0));
+        assert_eq!((structure.idle_under_load, structure.at_round_off), (true, 2));
+        history.iterations[1].fields[1].newton = 1;
+        assert!(
+            !StepRecord::new(&history, true).fields[1].idle_under_load,
+            "it moved in the second iteration"
+        );
+    }
+
+    #[test]
+    fn what_hardly_ever_happens_is_left_out_of_a_line_and_read_back() {
+        let mut record = samples::history([0.5, 0.25], false, true).iterations.remove(0);
+        let line = serde_json::to_string(&record).unwrap();
+        assert!(!line.contains("at_round_off") && !line.contains("idle_under_load"), "{line}");
+        (record.fields[0].at_round_off, record.fields[1].idle_under_load) = (true, true);
+        let line = serde_json::to_string(&record).unwrap();
+        assert_eq!(serde_json::from_str::<IterationRecord>(&line).unwrap(), record);
     }
 
     #[test]

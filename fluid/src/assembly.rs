@@ -48,6 +48,9 @@ pub(crate) struct Assembly {
     pub(crate) tangent: Vec<f64>,
     /// Whether continuity, not momentum, decided the norm of the last assembly.
     pub(crate) continuity_is_worse: bool,
+    /// Squared norms of the residual of the last assembly, and the squared sizes of its terms.
+    pub(crate) squares: Sizes,
+    pub(crate) sizes: Sizes,
     /// One element matrix.
     local: Vec<f64>,
 }
@@ -66,6 +69,8 @@ impl Assembly {
             right_hand_side: vec![0.0; dofs.free_count()],
             tangent: vec![0.0; pattern.nonzeros()],
             continuity_is_worse: false,
+            squares: Sizes::default(),
+            sizes: Sizes::default(),
             local: vec![0.0; connectivity.dofs_per_element().pow(2)],
             dofs,
             pattern,
@@ -95,6 +100,7 @@ impl Assembly {
         self.turn_terms(iterate.frames);
         let measured = norm::<D>(&self.dofs, &self.terms, &sizes, &mut self.right_hand_side);
         self.continuity_is_worse = measured.continuity_is_worse;
+        (self.squares, self.sizes) = (measured.squares, sizes);
         measured.norm
     }
 

@@ -1,6 +1,7 @@
 //! Boundary conditions sorted out by nodes and facets, once.
 
 mod check;
+mod closed;
 mod natural;
 mod slip;
 
@@ -8,6 +9,7 @@ use partita_mesh::motion::prescribed_dofs;
 use partita_mesh::{Mesh, Place};
 
 pub(crate) use check::check;
+pub(crate) use closed::ClosedWalls;
 pub(crate) use natural::{Natural, NaturalFacet};
 pub(crate) use slip::{Frames, SlipNode};
 
@@ -42,6 +44,8 @@ pub(crate) struct Boundaries<const D: usize> {
     pub(crate) mesh_prescribed: Option<Vec<bool>>,
     /// Whether velocity is prescribed all round.
     pub(crate) is_closed: bool,
+    /// Its moving walls, if it is.
+    pub(crate) closed_walls: Option<ClosedWalls<D>>,
     /// Nodes held in all directions, ascending.
     holds: Vec<(usize, Hold)>,
 }
@@ -63,12 +67,17 @@ impl<const D: usize> Boundaries<D> {
             slip: Vec::new(),
             mesh_prescribed: mesh_prescribed(mesh, model, settings)?,
             is_closed: !model.boundary.iter().any(|(_, condition)| condition.is_natural()),
+            closed_walls: None,
             holds: Vec::new(),
         };
         for (node, owner) in owners.iter().enumerate() {
             if let Some(owner) = *owner {
                 boundaries.hold(node, owner, model, settings);
             }
+        }
+        if boundaries.is_closed {
+            let nodes = boundaries.wall_motion.iter().map(|(node, _)| *node);
+            boundaries.closed_walls = ClosedWalls::new(mesh, nodes);
         }
         boundaries.slip = slip::nodes(mesh, model, |node| owners[node]);
         for slip in &boundaries.slip {
@@ -139,7 +148,7 @@ impl<const D: usize> Boundaries<D> {
     ) -> Result<(), FluidError> {
         for &(node, hold) in &self.holds {
             let velocity = match hold {
-                Hold::Wall => mesh.velocity_of(node),
+                Hold::Wall => self.wall_velocity(mesh, node),
                 Hold::Still => [0.0; D],
                 Hold::Field(owner) => match &model.boundary[owner].1 {
                     BoundaryCondition::Velocity(field) => {
@@ -155,6 +164,14 @@ impl<const D: usize> Boundaries<D> {
             slip.impose(frames.rotation(k), &mesh.velocity_of(slip.node), velocity);
         }
         Ok(())
+    }
+
+    /// w, in a closed domain with the normal part that keeps the balance of volume.
+    fn wall_velocity(&self, mesh: &MovedMesh<D>, node: usize) -> [f64; D] {
+        let w = mesh.velocity_of(node);
+        let Some(walls) = &self.closed_walls else { return w };
+        let correction = walls.correction(node);
+        std::array::from_fn(|c| w[c] + correction[c])
     }
 }
 

@@ -3,6 +3,7 @@
 use partita_mesh::Place;
 use partita_mesh::motion::MotionError;
 use partita_numerics::FactorError;
+use partita_numerics::time::shown;
 
 /// Why a fluid cannot be set up or advanced.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -68,14 +69,15 @@ pub enum FluidError {
          hint: pin the pressure of one node, or make one boundary an outflow or a traction"
     )]
     PressureLevel,
-    /// Velocity is prescribed all round and the boundary moves.
+    /// Velocity is prescribed all round, and another field moves the boundary.
     #[error(
-        "fluid: boundary group `{group}` moves, and every boundary prescribes the normal velocity: an \
-         incompressible fluid admits only motions that keep its volume, and a pressure pin would hide the rest\n\
+        "fluid: boundary group `{group}` moves with a structure, and every boundary prescribes the normal velocity: \
+         an incompressible fluid admits only motions that keep its volume, and the iterates of an elastic structure \
+         do not\n\
          hint: make one boundary an outflow or a traction"
     )]
     ClosedAndMoving {
-        /// The first group that moves.
+        /// The first group that moves so.
         group: String,
     },
     /// A pressure pin where the pressure has a level.
@@ -97,11 +99,18 @@ pub enum FluidError {
         /// How many there are.
         nodes: usize,
     },
-    /// Prescribed velocities do not keep the volume.
+    /// Prescribed velocities and motions do not keep the volume.
     #[error(
-        "t = {time} s, fluid: prescribed velocities carry a net {net:.3e} m^{dimension}/s out of a closed domain \
+        "t = {} s, fluid: {what} carry a net {net:.3e} m^{dimension}/s out of a closed domain \
          ({gross:.3e} m^{dimension}/s pass its boundary)\n\
-         hint: make one boundary an outflow or a traction, or balance inflow and outflow edge by edge"
+         hint: make one boundary an outflow or a traction, or {balance}",
+        shown(*time),
+        what = if *.moves { "moving walls and prescribed velocities" } else { "prescribed velocities" },
+        balance = if *.moves {
+            "let the walls enclose the same volume at all times"
+        } else {
+            "balance inflow and outflow edge by edge"
+        },
     )]
     NetFlux {
         /// When `[s]`.
@@ -110,11 +119,13 @@ pub enum FluidError {
         net: f64,
         /// The sum of the absolute fluxes of the facets.
         gross: f64,
+        /// Whether walls move.
+        moves: bool,
         /// 2 or 3.
         dimension: usize,
     },
     /// A time step that is not one.
-    #[error("fluid: time step {dt} s to t = {time} s\nhint: time steps are positive and finite")]
+    #[error("fluid: time step {dt} s to t = {} s\nhint: time steps are positive and finite", shown(*time))]
     TimeStep {
         /// The end of the step `[s]`.
         time: f64,
@@ -123,8 +134,8 @@ pub enum FluidError {
     },
     /// A prescribed value that is infinite or not a number.
     #[error(
-        "t = {time} s, fluid: the {what} at node {node}, {place}, is not finite\n\
-         hint: check its expression there"
+        "t = {} s, fluid: the {what} at node {node}, {place}, is not finite\n\
+         hint: check its expression there", shown(*time)
     )]
     NotFinite {
         /// When `[s]`.
@@ -137,7 +148,7 @@ pub enum FluidError {
         place: Place,
     },
     /// The mesh could not follow its boundary.
-    #[error("t = {time} s, fluid: {source}")]
+    #[error("t = {} s, fluid: {source}", shown(*time))]
     Motion {
         /// When `[s]`.
         time: f64,
@@ -148,7 +159,7 @@ pub enum FluidError {
     #[error("fluid: {0}")]
     MotionSetup(#[from] MotionError),
     /// The tangent could not be factored.
-    #[error("t = {time} s, fluid: {source}")]
+    #[error("t = {} s, fluid: {source}", shown(*time))]
     Factorization {
         /// When `[s]`.
         time: f64,

@@ -23,6 +23,8 @@
 
 mod added_mass;
 mod assembly;
+mod backflow;
+mod balance;
 mod boundary;
 mod error;
 mod force;
@@ -31,6 +33,7 @@ pub mod kernel;
 pub mod model;
 mod probe;
 mod residual;
+mod round_off;
 pub mod settings;
 mod solver;
 pub mod stabilization;
@@ -39,6 +42,7 @@ mod step;
 mod trial;
 mod worst;
 
+pub use backflow::{Backflow, Outlet};
 pub use boundary::holding_conditions;
 pub use error::FluidError;
 pub use model::{BodyForce, BoundaryCondition, FluidModel, InitialState, VectorField};

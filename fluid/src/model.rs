@@ -50,7 +50,9 @@ pub enum BoundaryCondition<const D: usize> {
     Velocity(VectorField<D>),
     /// u = w. On a group whose mesh nodes slide, the wall stands still and u = 0.
     NoSlip,
-    /// A wall with a given displacement from the reference mesh `[m]`, evaluated at the reference point; u = w.
+    /// A wall with a given displacement from the reference mesh `[m]`, evaluated at the reference point; u = w. Where no
+    /// boundary lets the fluid out, u differs from w by what keeps the balance of volume, O(dt^order), and the motion must
+    /// keep the volume.
     WallMotion(VectorField<D>),
     /// u.n = w.n and no tangential stress, on walls of any direction: the unknowns of a node are turned into
     /// normal and tangents, with the normal `sum over facets of (N_a, n)` of the present mesh. Where facets

@@ -12,10 +12,10 @@ use crate::kernel::{TERMS, Terms};
 const CANCELLATION: f64 = 1e-5;
 
 /// Sums over the elements of the squared sizes of their terms, before anything cancels.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Clone, Copy, PartialEq)]
 pub(crate) struct Sizes {
-    momentum: f64,
-    continuity: f64,
+    pub(crate) momentum: f64,
+    pub(crate) continuity: f64,
 }
 
 impl Sizes {
@@ -45,6 +45,8 @@ pub(crate) struct Measured {
     pub(crate) norm: ResidualNorm,
     /// Whether continuity is the block of the larger relative part.
     pub(crate) continuity_is_worse: bool,
+    /// Squared norms of the residual in the two blocks.
+    pub(crate) squares: Sizes,
 }
 
 /// The norm over the free rows, and the right-hand side -R.
@@ -75,12 +77,14 @@ pub(crate) fn norm<const D: usize>(
         }
     }
     let [momentum, continuity] = blocks;
+    let squares = Sizes { momentum: momentum.residual, continuity: continuity.residual };
     let absolute = (momentum.residual + continuity.residual).sqrt();
     let [momentum, continuity] = [momentum.norm(sizes.momentum), continuity.norm(sizes.continuity)];
     let worst = momentum.worse(continuity);
     Measured {
         norm: ResidualNorm { absolute, relative: worst.relative },
         continuity_is_worse: !momentum.relative.is_nan() && worst == continuity && worst != momentum,
+        squares,
     }
 }
 

@@ -5,12 +5,14 @@ use partita_numerics::phases::timed;
 use partita_numerics::time::Bdf;
 
 use crate::assembly::Iterate;
+use crate::balance;
 use crate::boundary::{MovedMesh, evaluate};
 use crate::error::FluidError;
 use crate::model::{BodyForce, BoundaryCondition};
 use crate::settings::TimeScheme;
 use crate::solver::FluidSolver;
 use crate::state::FluidState;
+use crate::trial::Trial;
 
 impl<const D: usize> FluidSolver<D> {
     /// Starts the step of `dt` `[s]` that ends at `time` `[s]`, from the committed state with the prescribed values
@@ -19,8 +21,8 @@ impl<const D: usize> FluidSolver<D> {
     ///
     /// # Errors
     ///
-    /// If `dt` is not positive, a prescribed value is not finite, prescribed velocities of a closed domain do
-    /// not balance, or the mesh cannot follow its walls.
+    /// If `dt` is not positive, a prescribed value is not finite, prescribed velocities and moving walls of a closed
+    /// domain do not keep its volume, or the mesh cannot follow its walls.
     pub fn begin_step(&mut self, time: f64, dt: f64) -> Result<(), FluidError> {
         if !(time.is_finite() && dt > 0.0 && dt.is_finite()) {
             return Err(FluidError::TimeStep { time, dt });
@@ -185,6 +187,14 @@ impl<const D: usize> FluidSolver<D> {
         self.trial
             .follow(&self.mesh, &self.committed)
             .map_err(|source| FluidError::Motion { time, source })?;
+        if let (Some(walls), Some(bdf)) = (&mut self.boundaries.closed_walls, &self.trial.bdf) {
+            let FluidState { displacement, previous_displacement, .. } = &self.committed;
+            walls.update(
+                self.mesh.points(),
+                [&self.trial.displacement, displacement, previous_displacement],
+                bdf,
+            );
+        }
         self.frames.update(&self.boundaries.slip, &self.trial.points);
         let mesh = MovedMesh { time, points: &self.trial.points, velocity: &self.trial.mesh_velocity };
         if let BodyForce::Field(field) = &self.model.body_force {
@@ -205,7 +215,11 @@ impl<const D: usize> FluidSolver<D> {
         if let Some(pin) = self.settings.pressure_pin {
             self.trial.values[pin.node * (D + 1) + D] = pin.pressure;
         }
-        if self.boundaries.is_closed { self.check_net_flux(time) } else { Ok(()) }
+        if !self.boundaries.is_closed {
+            return Ok(());
+        }
+        let Trial { points, values, bdf, .. } = &self.trial;
+        balance::check(&self.mesh, &self.boundaries, &balance::State { time, points, values, bdf: *bdf })
     }
 }
 
@@ -243,6 +257,10 @@ impl<const D: usize> Problem for FluidSolver<D> {
             .map_err(|source| FluidError::Factorization { time, source })?;
         self.factor_log.factored(self.coefficients());
         self.solve_with_kept_factor()
+    }
+
+    fn round_offs(&mut self) -> f64 {
+        self.residual_in_round_off()
     }
 
     fn kept_factor(&self) -> KeptFactor {

@@ -8,6 +8,8 @@ mod chord_tests;
 mod failure;
 mod kept;
 mod norm;
+#[cfg(test)]
+mod round_off_tests;
 mod run;
 mod settings;
 #[cfg(test)]
@@ -30,6 +32,15 @@ pub trait Problem {
     ///
     /// If the residual cannot be evaluated, for instance in an inverted element.
     fn assemble(&mut self, with_tangent: bool) -> Result<ResidualNorm, Self::Error>;
+
+    /// The residual of the last assembly in units of what round-off leaves of it: of several blocks, the largest number
+    /// counts. At 1 and below, no iteration can be asked to make it smaller.
+    ///
+    /// The unit is made from the sizes of the assembled terms, before they cancel; a problem that does not know them is
+    /// always above.
+    fn round_offs(&mut self) -> f64 {
+        f64::INFINITY
+    }
 
     /// Factors the tangent of the last assembly, solves (dR/ds) ds = -R and adds ds to the iterate.
     ///
@@ -98,10 +109,14 @@ pub struct Report {
     pub entry: ResidualNorm,
     /// The residual at the last iterate, evaluated there.
     pub exit: ResidualNorm,
-    /// Whether the bound was met where [`Check`] looks.
+    /// Whether the residual at the entry met the bound, or was at round-off.
+    pub entry_converged: bool,
+    /// Whether the bound was met where [`Check`] looks, or the residual was [at round-off](Problem::round_offs).
     pub converged: bool,
+    /// Whether it converged because its residual was round-off, above the bound.
+    pub at_round_off: bool,
     /// Whether the callback ended the loop.
     pub stopped_by_callback: bool,
-    /// Whether the residual stood still at round-off, above its bound.
+    /// Whether the residual stood still above its bound, and above its round-off.
     pub stagnated: bool,
 }

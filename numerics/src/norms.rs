@@ -25,21 +25,26 @@ pub fn norm2_at(x: &[f64], dofs: &[usize]) -> f64 {
     norm2_of(dofs.iter().map(|&dof| x[dof]))
 }
 
-/// |exit - entry|_2 / |exit|_2 over the listed `dofs`; 0/0 = 0.
+/// |exit - entry|_2 / |exit|_2 over the listed `dofs`; 0/0 = 0, and 0 where |exit - entry|_2 is not above `resolution`, the
+/// round-off of the natural scale of these values.
 ///
 /// ```
 /// use partita_numerics::norms::relative_change;
 ///
-/// assert_eq!(relative_change(&[1.0, 7.0], &[2.0, 9.0], &[0]), 0.5);
-/// assert_eq!(relative_change(&[0.0], &[0.0], &[0]), 0.0);
+/// assert_eq!(relative_change(&[1.0, 7.0], &[2.0, 9.0], &[0], 0.0), 0.5);
+/// assert_eq!(relative_change(&[0.0], &[0.0], &[0], 0.0), 0.0);
+/// assert_eq!(relative_change(&[1e-17], &[3e-17], &[0], 1e-16), 0.0);
 /// ```
 ///
 /// # Panics
 ///
 /// If a dof lies outside `entry` or `exit`.
 #[must_use]
-pub fn relative_change(entry: &[f64], exit: &[f64], dofs: &[usize]) -> f64 {
+pub fn relative_change(entry: &[f64], exit: &[f64], dofs: &[usize], resolution: f64) -> f64 {
     let change = norm2_of(dofs.iter().map(|&dof| exit[dof] - entry[dof]));
+    if change <= resolution {
+        return 0.0;
+    }
     relative(change, norm2_at(exit, dofs))
 }
 
@@ -66,6 +71,24 @@ pub fn largest_at(x: &[f64], dofs: &[usize]) -> Option<usize> {
 #[must_use]
 pub fn relative(value: f64, scale: f64) -> f64 {
     if value == 0.0 && scale == 0.0 { 0.0 } else { value / scale }
+}
+
+/// The largest extent of some points along an axis; 0 without points.
+///
+/// ```
+/// use partita_numerics::norms::extent;
+///
+/// assert_eq!(extent(&[[1.0, 7.0], [3.0, 4.0]]), 3.0);
+/// ```
+#[must_use]
+pub fn extent<const D: usize>(points: &[[f64; D]]) -> f64 {
+    let along = |c: usize| {
+        let ends = points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], point| {
+            [low.min(point[c]), high.max(point[c])]
+        });
+        ends[1] - ends[0]
+    };
+    (0..D).map(along).fold(0.0, f64::max)
 }
 
 fn norm2_of(entries: impl Iterator<Item = f64> + Clone) -> f64 {
@@ -106,13 +129,13 @@ mod tests {
     #[test]
     fn change_counts_listed_dofs_only() {
         let (entry, exit) = ([0.0, 5.0, 0.0], [3.0, 9.0, 4.0]);
-        assert_relative_eq!(relative_change(&entry, &exit, &[0, 2]), 1.0);
-        assert_relative_eq!(relative_change(&entry, &exit, &[1]), 4.0 / 9.0);
-        assert_eq!(relative_change(&entry, &exit, &[]), 0.0);
+        assert_relative_eq!(relative_change(&entry, &exit, &[0, 2], 0.0), 1.0);
+        assert_relative_eq!(relative_change(&entry, &exit, &[1], 0.0), 4.0 / 9.0);
+        assert_eq!(relative_change(&entry, &exit, &[], 0.0), 0.0);
     }
 
     #[test]
     fn change_from_something_to_zero_is_infinite() {
-        assert_eq!(relative_change(&[1.0], &[0.0], &[0]), f64::INFINITY);
+        assert_eq!(relative_change(&[1.0], &[0.0], &[0], 0.0), f64::INFINITY);
     }
 }

@@ -74,9 +74,13 @@ impl Sub for PhaseSeconds {
 ///
 /// Where `work` needs the owner of the phases as a whole, use a [`Stopwatch`].
 pub fn timed<T>(seconds: &mut f64, work: impl FnOnce() -> T) -> T {
-    let watch = Stopwatch::start();
+    timed_by(Instant::now, seconds, work)
+}
+
+fn timed_by<T>(mut now: impl FnMut() -> Instant, seconds: &mut f64, work: impl FnOnce() -> T) -> T {
+    let watch = Stopwatch { start: now() };
     let result = work();
-    watch.stop(seconds);
+    watch.stop_at(now(), seconds);
     result
 }
 
@@ -95,13 +99,19 @@ impl Stopwatch {
 
     /// Adds the time since the start (s) to `seconds`.
     pub fn stop(self, seconds: &mut f64) {
-        *seconds += self.start.elapsed().as_secs_f64();
+        self.stop_at(Instant::now(), seconds);
+    }
+
+    fn stop_at(self, end: Instant, seconds: &mut f64) {
+        *seconds += (end - self.start).as_secs_f64();
     }
 }
 
 #[cfg(test)]
 #[allow(clippy::float_cmp, reason = "these values are exact")]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
 
     const PHASES: PhaseSeconds = PhaseSeconds { assembly: 1.0, factorization: 2.0, solve: 4.0, motion: 8.0 };
@@ -119,12 +129,14 @@ mod tests {
     #[test]
     fn time_accumulates_in_the_phase_it_is_given() {
         let mut phases = PhaseSeconds { motion: 1.0, ..PhaseSeconds::default() };
-        let pause = std::time::Duration::from_millis(2);
-        timed(&mut phases.motion, || std::thread::sleep(pause));
         let watch = Stopwatch::start();
-        std::thread::sleep(pause);
-        watch.stop(&mut phases.motion);
-        assert!(phases.motion >= 1.0 + 2.0 * pause.as_secs_f64());
-        assert_eq!(phases.total(), phases.motion);
+        let mut time = watch.start;
+        watch.stop_at(time + Duration::from_millis(500), &mut phases.motion);
+        let mut ticks = || {
+            time += Duration::from_millis(2250);
+            time
+        };
+        assert_eq!(timed_by(&mut ticks, &mut phases.motion, || 7), 7);
+        assert_eq!(phases, PhaseSeconds { motion: 3.75, ..PhaseSeconds::default() });
     }
 }

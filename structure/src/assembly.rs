@@ -1,5 +1,7 @@
 //! From elements to global forces and the tangent.
 
+mod round_off;
+
 use partita_numerics::scatter::add_vector;
 use partita_numerics::{Connectivity, DofMap, Pattern, Scatter};
 
@@ -42,6 +44,8 @@ pub(crate) struct Local<const D: usize> {
     force: Vec<[f64; D]>,
     matrix: Vec<f64>,
     blocks: Blocks<D>,
+    /// Sizes of forces, a node.
+    sizes: Vec<f64>,
 }
 
 /// Everything about assembly that does not change during a run.
@@ -117,7 +121,7 @@ impl<const D: usize> Assembly<D> {
     /// `factor K_0` on the pattern: the stiffness of the undeformed structure.
     pub(crate) fn linear_stiffness(&self, factor: f64) -> Vec<f64> {
         let linearized = self.material.linearized();
-        self.matrix(|e, Local { field, force, matrix, blocks }| {
+        self.matrix(|e, Local { field, force, matrix, blocks, .. }| {
             let element = self.elements.element(e);
             field.fill([0.0; D]);
             kernel::add_internal_force_and_tangent(
@@ -153,6 +157,7 @@ impl<const D: usize> Assembly<D> {
             force: vec![[0.0; D]; nodes],
             matrix: vec![0.0; (nodes * D).pow(2)],
             blocks: Blocks::new(nodes),
+            sizes: vec![0.0; nodes],
         }
     }
 
@@ -262,7 +267,7 @@ impl<const D: usize> Assembly<D> {
         scale: f64,
         local: &mut Local<D>,
     ) -> Result<(), StructureError> {
-        let Local { field, force, matrix, blocks } = local;
+        let Local { field, force, matrix, blocks, .. } = local;
         kernel::add_internal_force_and_tangent(
             self.elements.element(e),
             &self.material,

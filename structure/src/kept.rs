@@ -3,14 +3,13 @@
 use partita_numerics::newton::{Coefficients, KeptFactor, KeptTangent};
 
 use crate::error::StructureError;
-use crate::material::Law;
 use crate::solver::StructureSolver;
 
 impl<const D: usize> StructureSolver<D> {
     /// Whether the equations are linear: their tangent then depends on the size of the step alone.
     #[must_use]
     pub fn is_linear(&self) -> bool {
-        self.model.material.law() == Law::LinearElastic
+        self.model.material.is_linear()
     }
 
     /// What the last factor is worth now.

@@ -8,7 +8,11 @@
 //! time integration; nodal fields are slices with one `[f64; D]` a node, results are *added* to the slices given. A
 //! field of another length is a panic; a deformation that the material has no stress for is a [`PointError`].
 
+mod round_off;
+
 use partita_numerics::small;
+
+pub use round_off::add_rounding;
 
 use crate::material::{Material, ResponseError};
 use crate::tensor::{self, Tensor};

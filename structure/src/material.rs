@@ -166,6 +166,18 @@ impl Material {
         self.mu
     }
 
+    /// lambda + 2 mu `[Pa]`: the stiffest answer to a small strain.
+    #[must_use]
+    pub fn wave_modulus(&self) -> f64 {
+        self.lambda + 2.0 * self.mu
+    }
+
+    /// Whether stress is linear in the displacement.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        self.law == Law::LinearElastic
+    }
+
     /// The same constants under Hooke's law on the small strain: the tangent of every law in the reference
     /// configuration, used for stiffness-proportional damping.
     #[must_use]

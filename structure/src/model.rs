@@ -95,6 +95,13 @@ pub struct LineSearch {
     pub max_evaluations: usize,
 }
 
+impl Default for LineSearch {
+    /// To 0.8 of the work at the start, with at most ten residuals.
+    fn default() -> Self {
+        Self { tolerance: 0.8, max_evaluations: 10 }
+    }
+}
+
 /// Unknowns that are judged together.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Part {

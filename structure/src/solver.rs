@@ -2,6 +2,7 @@
 
 use partita_iga::Spline;
 use partita_numerics::newton::{self, FactorLog, Failure, Limit, Report, Verdict};
+use partita_numerics::norms::extent;
 use partita_numerics::{DofMap, Pattern, PhaseSeconds};
 
 use crate::assembly::{Assembly, Forces, Local, Motion};
@@ -260,6 +261,13 @@ impl<const D: usize> StructureSolver<D> {
     #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.parts
+    }
+
+    /// Displacements `[m]` whose difference has a smaller norm than this are the same shape: they differ by less than the
+    /// last bit of the coordinates.
+    #[must_use]
+    pub fn resolution(&self) -> f64 {
+        f64::EPSILON * extent(self.space.points())
     }
 
     /// The residual R `[N, in 2D N/m]` of the last assembly on all dofs; in the rows of supports it holds the reactions.

@@ -58,8 +58,10 @@ struct Variant {
 
 /// The task as its options say.
 pub(crate) fn run(root: &Path, options: &Options) -> Result<(), TaskError> {
-    if options.mode == Some(Mode::Check) {
-        return page::check(root);
+    match options.mode {
+        Some(Mode::Check) => return page::check(root),
+        Some(Mode::Page) => return page::write(root),
+        Some(Mode::Write | Mode::Print) | None => {}
     }
     let workshop = Workshop::open(root, options.jobs, !options.fresh)?;
     let mut table = Csv::new(COLUMNS);

@@ -40,8 +40,10 @@ struct Tried {
 /// The task as its options say.
 pub(crate) fn run(root: &Path, options: &Options) -> Result<(), TaskError> {
     let mode = options.mode.unwrap_or(Mode::Write);
-    if mode == Mode::Check {
-        return page::check(root);
+    match mode {
+        Mode::Check => return page::check(root),
+        Mode::Page => return page::write(root),
+        Mode::Write | Mode::Print => {}
     }
     let workshop = Workshop::open(root, options.jobs, !options.fresh)?;
     let published = Published::read(root)?;

@@ -13,7 +13,10 @@ mod benchmark;
 mod beyond;
 mod ci;
 mod csv;
+mod damping;
 mod effects;
+#[cfg(test)]
+mod figures;
 mod infer;
 mod options;
 mod performance;
@@ -39,23 +42,29 @@ Tasks:
   reproduce              run the paper's tables, write paper/results and docs/reproduction.md
     --table 1|2|3        only the runs of this table
     --quick              only the first steps at a few settings, beside the counts they had before
-    --mode MODE          write (default), check: run nothing, fail where page and results differ, or print
+    --mode MODE          write (default), check: run nothing, fail if a page differs from the results, print, or
+                         page: write pages and figures from the results, running only the two snapshots
                          (with --quick: check is the default, write keeps the counts)
     --jobs N             runs at a time (default: as many as there are cores)
     --fresh              run again what is remembered
   benchmark [CASE]...    run published benchmarks on all levels and compare with docs/data/benchmarks.csv
     --level L            only this level, 1 is the coarsest
-    --mode MODE          check (default), or write: keep the results, draw docs/benchmarks.md and its pictures
+    --mode MODE          check (default), write: keep the results, write docs/benchmarks.md and its pictures, or page:
+                         run nothing, write page and pictures from the data
   performance            time the fluid's parts and whole steps, write docs/data/performance.csv and docs/performance.md
     --largest DOFS       leave out sizes of more unknowns, such as 100000
     --mode MODE          write (default), or check: measure nothing, fail where the page differs from the data
   effects                run the beam in channel flow with effects switched on one by one, and without each of them
     --mode MODE          check (default): counts and errors as in docs/data/effects.csv, or write that and docs/effects.md
+  damping                run a few scenes at several spectral radii of the structure's time scheme
+    --mode MODE          check (default): oscillations and errors as in docs/data/damping.csv, write: keep them and write
+                         docs/damping.md, or page: write that alone
   accuracy [STUDY]...    run the studies of accuracy against time (studies/), or some of them
     --mode MODE          check (default): errors as in docs/data/accuracy.csv, or write that, docs/accuracy.md and its
                          pictures, or page: run nothing, write page and pictures from the data
   stability [MAP]...     run the maps of what converges, compare with docs/data/stability_*.csv
-    --mode MODE          check (default), write: keep tables, pictures and docs/stability.md, or page: write that alone
+    --mode MODE          check (default), write: keep the tables, write docs/stability.md and its pictures, or page:
+                         run nothing, write page and pictures from the tables
   infer                  search the values that the paper does not give, as paper/inference.md says; options
                          --mode, --jobs and --fresh as above
   sensitivity            judge the claims on cases with other values, write paper/results/sensitivity.csv
@@ -84,6 +93,7 @@ fn dispatch(arguments: &[&str]) -> Result<(), TaskError> {
         ["benchmark", options @ ..] => benchmark::run(root, options),
         ["performance", options @ ..] => performance::run(root, options),
         ["effects", options @ ..] => effects::run(root, options),
+        ["damping", options @ ..] => damping::run(root, options),
         ["accuracy", options @ ..] => accuracy::run(root, options),
         ["stability", options @ ..] => stability::run(root, options),
         ["infer", options @ ..] => infer::run(root, &Options::parse("infer", options)?),

@@ -12,6 +12,8 @@ pub(crate) enum Mode {
     Check,
     /// Do the runs, show what came of them, write nothing.
     Print,
+    /// Write the pages and figures from the results that are kept.
+    Page,
 }
 
 /// How a task that runs scenes is done.
@@ -58,13 +60,15 @@ impl Options {
                         "write" => Mode::Write,
                         "check" => Mode::Check,
                         "print" => Mode::Print,
+                        "page" if matches!(task, "reproduce" | "beyond" | "infer") => Mode::Page,
                         _ => return Err(wrong()),
                     });
                 }
                 _ => return Err(wrong()),
             }
         }
-        Ok(options)
+        // The quick runs are on no page.
+        if options.quick && options.mode == Some(Mode::Page) { Err(wrong()) } else { Ok(options) }
     }
 }
 
@@ -92,8 +96,10 @@ mod tests {
             &["--mode", "maybe"],
             &["--quick", "--quick"],
             &["quick"],
+            &["--quick", "--mode", "page"],
         ] {
             assert!(Options::parse("reproduce", words).is_err(), "{words:?}");
         }
+        assert!(Options::parse("sensitivity", &["--mode", "page"]).is_err(), "it has no page");
     }
 }

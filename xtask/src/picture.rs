@@ -24,6 +24,14 @@ fn step(case: Case) -> usize {
     }
 }
 
+/// The end of that step \[s\].
+fn time(case: Case) -> f64 {
+    match case {
+        Case::Tank => 0.2,
+        Case::Beam => 0.25,
+    }
+}
+
 /// Runs both cases up to the moment the paper shows and draws it.
 pub(crate) fn write_all(root: &Path, workshop: &Workshop<'_>) -> Result<(), TaskError> {
     for case in Case::ALL {
@@ -50,6 +58,6 @@ fn draw(case: Case, fluid: &Piece, structure: &Piece) -> Result<String, TaskErro
         Case::Beam => ("speed", "m/s", fluid.lengths("velocity [m/s]")?),
     };
     let scale = Scale::new(name, unit, values);
-    let title = format!("{} in its deformed state, {name}", case.scene());
+    let title = format!("{} at t = {} s, {name}", case.scene(), time(case));
     Ok(draw::deformed(&title, fluid, structure, &scale))
 }

@@ -45,14 +45,13 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<(), TaskError> {
             picture::write_all(root, &workshop)?;
             let published = Published::read(root)?;
             results::write(root, &ours, &published)?;
-            let page = Page::read(root)?;
-            results::write_claims(root, page.judged())?;
-            for (path, text) in page.files() {
-                task::write(&root.join(path), &text)?;
-            }
-            print!("{}", page.summary());
+            print!("{}", write_pages(root)?.summary());
             say(spent);
             Ok(())
+        }
+        Mode::Page => {
+            picture::write_all(root, &Workshop::open(root, options.jobs, true)?)?;
+            write_pages(root).map(drop)
         }
         Mode::Print => {
             let workshop = Workshop::open(root, options.jobs, !options.fresh)?;
@@ -63,6 +62,16 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<(), TaskError> {
             Ok(())
         }
     }
+}
+
+/// Writes pages, figures and the verdict on each claim, from the results.
+fn write_pages(root: &Path) -> Result<Page, TaskError> {
+    let page = Page::read(root)?;
+    results::write_claims(root, page.judged())?;
+    for (path, text) in page.files() {
+        task::write(&root.join(path), &text)?;
+    }
+    Ok(page)
 }
 
 /// What CI runs: the first steps, one and several at a time.

@@ -34,16 +34,26 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
             return check_page(root);
         }
     }
-    task::write(&root.join(PAGE), &page::markdown(&all(root)?))
+    for (path, text) in files(root)? {
+        task::write(&root.join(path), &text)?;
+    }
+    Ok(())
 }
 
-/// Keeps the tables and pictures of these maps.
+/// The page and the pictures, made from the tables.
+fn files(root: &Path) -> Result<Vec<(String, String)>, TaskError> {
+    let all = all(root)?;
+    let mut files = vec![(PAGE.to_owned(), page::markdown(&all))];
+    files.extend(all.iter().map(|(map, table)| (format!("docs/{}", figure(&map.name)), table.picture(map))));
+    Ok(files)
+}
+
+/// Keeps the tables of these maps.
 fn write(root: &Path, names: &[&str]) -> Result<(), TaskError> {
     let binary = task::release_binary(root)?;
     for name in names {
         let folder = carry_out(root, &binary, name)?;
         task::write(&root.join(data(name)), &task::read(&folder.join("cells.csv"))?)?;
-        task::write(&root.join("docs").join(figure(name)), &task::read(&folder.join("map.svg"))?)?;
     }
     Ok(())
 }
@@ -61,14 +71,17 @@ fn check(root: &Path, names: &[&str]) -> Result<(), TaskError> {
     if faults.is_empty() { Ok(()) } else { Err(TaskError::Failed(faults.join("\n"))) }
 }
 
-/// Fails where the page does not say what the tables say.
+/// Fails where page or pictures do not say what the tables say.
 pub(crate) fn check_page(root: &Path) -> Result<(), TaskError> {
-    if task::read(&root.join(PAGE))? == page::markdown(&all(root)?) {
+    let differs = |(path, text): &(String, String)| task::read(&root.join(path)).ok().as_ref() != Some(text);
+    let differing: Vec<String> = files(root)?.into_iter().filter(differs).map(|(path, _)| path).collect();
+    if differing.is_empty() {
         return Ok(());
     }
     Err(TaskError::Failed(format!(
-        "{PAGE} does not say what its tables, maps and remarks say\n\
-         hint: `cargo xtask stability --mode page` writes it, `--mode write` runs the maps before that"
+        "these do not say what tables, maps and remarks say: {}\n\
+         hint: `cargo xtask stability --mode page` writes them, `--mode write` runs the maps before that",
+        differing.join(", ")
     )))
 }
 

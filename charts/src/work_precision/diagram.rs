@@ -3,6 +3,7 @@
 use super::legend::Legend;
 use super::{Curve, Point, cheapest};
 use crate::axis::LogAxis;
+use crate::style::Style;
 use crate::svg::{Anchor, Colour, Dash, Svg};
 
 /// What is drawn.
@@ -20,7 +21,7 @@ pub struct Diagram<'a> {
     pub wanted: Option<f64>,
 }
 
-const WIDTH: f64 = 780.0;
+const LEAST_WIDTH: f64 = 780.0;
 const LEFT: f64 = 72.0;
 const RIGHT: f64 = 500.0;
 const TOP: f64 = 44.0;
@@ -43,7 +44,8 @@ impl Diagram<'_> {
         let errors = points().map(|point| point.error).chain(self.wanted);
         let up = LogAxis::around(errors.chain(self.shown_uncertainty()), [BOTTOM, TOP])?;
         let legend = Legend::new(self, [RIGHT + 20.0, TOP]);
-        let mut svg = Svg::new(WIDTH, (BOTTOM + FOOT).max(legend.bottom()), self.title);
+        let mut svg =
+            Svg::new(legend.right().max(LEAST_WIDTH), (BOTTOM + FOOT).max(legend.bottom()), self.title);
         svg.text([LEFT, 24.0], 14.0, Anchor::Start, Colour::BLACK, self.title);
         if let Some(uncertainty) = self.shown_uncertainty() {
             let top = up.place(uncertainty);
@@ -51,8 +53,8 @@ impl Diagram<'_> {
         }
         frame(&mut svg, &across, &up, self.error);
         self.draw_wanted(&mut svg, &across, &up);
-        for (curve, colour) in self.curves.iter().zip(Colour::LINES.into_iter().cycle()) {
-            self.draw_curve(&mut svg, &across, &up, curve, colour);
+        for (index, curve) in self.curves.iter().enumerate() {
+            self.draw_curve(&mut svg, &across, &up, curve, Style::of(index));
         }
         legend.draw(&mut svg);
         Some(svg.finish())
@@ -74,7 +76,7 @@ impl Diagram<'_> {
         }
     }
 
-    fn draw_curve(&self, svg: &mut Svg, across: &LogAxis, up: &LogAxis, curve: &Curve, colour: Colour) {
+    fn draw_curve(&self, svg: &mut Svg, across: &LogAxis, up: &LogAxis, curve: &Curve, style: Style) {
         let trend = curve.trend(self.uncertainty);
         let shown: Vec<[f64; 2]> = curve
             .points
@@ -82,15 +84,15 @@ impl Diagram<'_> {
             .filter(|point| is_shown(point))
             .map(|point| place(across, up, point))
             .collect();
-        svg.path(&shown, colour, 1.0, Dash::None);
+        svg.series(&shown, &curve.name, style.colour, 1.0, style.dash);
         if let Some(fit) = trend.fit {
             let end = |error: f64| [across.place(across.clamp(fit.seconds(error))), up.place(error)];
-            svg.path(&fit.errors.map(end), colour, 2.0, Dash::Long);
+            svg.path(&fit.errors.map(end), style.colour, 2.0, Dash::Long);
         }
         let floor = trend.floor.map_or(curve.points.len(), |floor| floor.start);
         for (index, point) in curve.points.iter().enumerate().filter(|(_, point)| is_shown(point)) {
-            let fill = if index < floor { colour } else { Colour::WHITE };
-            svg.circle(place(across, up, point), 4.0, Some(fill), colour, 1.5);
+            let fill = if index < floor { style.colour } else { Colour::WHITE };
+            style.draw_mark(svg, place(across, up, point), 4.0, fill);
         }
     }
 }
@@ -100,12 +102,12 @@ fn frame(svg: &mut Svg, across: &LogAxis, up: &LogAxis, error: &str) {
     for tick in across.ticks() {
         let x = across.place(tick.value);
         svg.path(&[[x, TOP], [x, BOTTOM]], Colour::PALE, 1.0, Dash::None);
-        svg.text([x, BOTTOM + 16.0], SMALL, Anchor::Middle, Colour::BLACK, &tick.label);
+        svg.tick([x, BOTTOM + 16.0], SMALL, Anchor::Middle, "CPU time [s]", &tick.label);
     }
     for tick in up.ticks() {
         let y = up.place(tick.value);
         svg.path(&[[LEFT, y], [RIGHT, y]], Colour::PALE, 1.0, Dash::None);
-        svg.text([LEFT - 6.0, y + 4.0], SMALL, Anchor::End, Colour::BLACK, &tick.label);
+        svg.tick([LEFT - 6.0, y + 4.0], SMALL, Anchor::End, error, &tick.label);
     }
     svg.outline(&[[LEFT, TOP], [RIGHT, TOP], [RIGHT, BOTTOM], [LEFT, BOTTOM]], Colour::GREY, 1.0);
     let middle = [0.5 * (LEFT + RIGHT), 0.5 * (TOP + BOTTOM)];
@@ -124,6 +126,7 @@ fn place(across: &LogAxis, up: &LogAxis, point: &Point) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::legible::faults;
 
     fn curve(name: &str, points: &[(f64, f64)]) -> Curve {
         let point = |&(error, cpu_seconds): &(f64, f64)| Point { name: String::new(), error, cpu_seconds };
@@ -160,7 +163,32 @@ mod tests {
         assert_eq!(svg.matches("<circle").count(), 2 + 6 + 1 + 1);
         assert!(!svg.contains("known"), "an exact reference needs no word");
         well_formed(&svg);
+        assert_eq!(faults(&svg), Vec::<String>::new());
         assert_eq!(diagram.draw(), Some(svg));
+    }
+
+    #[test]
+    fn diagrams_of_many_curves_and_short_ranges_can_be_read() {
+        for count in [1, 8, 12] {
+            for (high, late) in [(1.0001, 1.0001), (1.5, 2.0), (9.0, 11.0), (1e6, 1e3)] {
+                let curves: Vec<Curve> = (0..count)
+                    .map(|k| {
+                        curve(
+                            &format!("curve {k} of a name that is too long for one line"),
+                            &[(high, 1.0), (1.0, late)],
+                        )
+                    })
+                    .collect();
+                let diagram = Diagram {
+                    title: "A",
+                    error: "error [-]",
+                    curves: &curves,
+                    uncertainty: 0.5,
+                    wanted: Some(0.9),
+                };
+                assert_eq!(faults(&diagram.draw().expect("points")), Vec::<String>::new(), "{count}, {high}");
+            }
+        }
     }
 
     #[test]

@@ -2,10 +2,12 @@
 
 use super::{Diagram, Fit};
 use crate::axis::rounded;
+use crate::style::Style;
 use crate::svg::{Anchor, Colour, Dash, Svg};
+use crate::text;
 
-/// Letters of a name that fit on a line.
-const LETTERS: usize = 32;
+/// Width of a line.
+const MOST: f64 = 218.0;
 const NAME: f64 = 12.0;
 const SMALL: f64 = 11.0;
 /// From a line of an entry to the next, and what an entry leaves free below itself.
@@ -31,7 +33,8 @@ struct Entry {
 
 #[derive(Clone, Copy)]
 enum Sign {
-    Curve(Colour),
+    /// Of the curve with this number.
+    Curve(usize),
     Law,
     Floor,
     Wanted,
@@ -44,10 +47,14 @@ impl Legend {
     /// The legend of a diagram; `corner` is its upper left one.
     pub(super) fn new(diagram: &Diagram<'_>, corner: [f64; 2]) -> Self {
         let mut entries = Vec::new();
-        for (curve, colour) in diagram.curves.iter().zip(Colour::LINES.into_iter().cycle()) {
+        for (index, curve) in diagram.curves.iter().enumerate() {
             let fit = curve.trend(diagram.uncertainty).fit;
             let note = fit.as_ref().map_or_else(|| "no law".to_owned(), law);
-            entries.push(Entry { sign: Sign::Curve(colour), name: lines(&curve.name), note });
+            entries.push(Entry {
+                sign: Sign::Curve(index),
+                name: text::lines(&curve.name, NAME, MOST),
+                note,
+            });
         }
         let mut note =
             |sign, note: &str| entries.push(Entry { sign, name: Vec::new(), note: note.to_owned() });
@@ -66,6 +73,13 @@ impl Legend {
     /// Where it ends.
     pub(super) fn bottom(&self) -> f64 {
         self.corner[1] + self.entries.iter().map(Entry::height).sum::<f64>()
+    }
+
+    /// Where its widest line ends, with a margin.
+    pub(super) fn right(&self) -> f64 {
+        let names = self.entries.iter().flat_map(|entry| &entry.name).map(|line| text::width(line, NAME));
+        let notes = self.entries.iter().map(|entry| text::width(&entry.note, SMALL));
+        self.corner[0] + WORDS + names.chain(notes).fold(0.0, f64::max) + 12.0
     }
 
     pub(super) fn draw(&self, svg: &mut Svg) {
@@ -98,9 +112,10 @@ impl Sign {
         let line = [[x, y], [x + SAMPLE, y]];
         let middle = [x + 0.5 * SAMPLE, y];
         match self {
-            Self::Curve(colour) => {
-                svg.path(&line, colour, 2.0, Dash::None);
-                svg.circle(middle, 4.0, Some(colour), colour, 1.5);
+            Self::Curve(index) => {
+                let style = Style::of(index);
+                svg.path(&line, style.colour, 2.0, style.dash);
+                style.draw_mark(svg, middle, 4.0, style.colour);
             }
             Self::Law => svg.path(&line, Colour::GREY, 2.0, Dash::Long),
             Self::Floor => svg.circle(middle, 4.0, Some(Colour::WHITE), Colour::GREY, 1.5),
@@ -109,21 +124,6 @@ impl Sign {
             Self::Nothing => {}
         }
     }
-}
-
-/// A name on lines that fit, broken between words.
-fn lines(name: &str) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in name.split(' ') {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= LETTERS => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
 }
 
 /// Slope and price of a digit.
@@ -135,20 +135,4 @@ fn law(fit: &Fit) -> String {
         return "upright: a digit costs next to nothing".to_owned();
     }
     format!("slope {}: a digit costs x {factor}", rounded(fit.slope(), 2))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn long_names_are_broken_between_words_and_none_is_lost() {
-        let name = "constant 0.8, N^f = 2, N^s = 1, bounds of the fields";
-        let broken = lines(name);
-        assert_eq!(broken, ["constant 0.8, N^f = 2, N^s = 1,", "bounds of the fields"]);
-        assert_eq!(broken.join(" "), name);
-        assert_eq!(lines("BDF1"), ["BDF1"]);
-        let long = "x".repeat(50);
-        assert_eq!(lines(&format!("a {long} b")), ["a", &long, "b"]);
-    }
 }

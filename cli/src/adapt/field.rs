@@ -6,6 +6,15 @@ use partita_numerics::phases::PhaseSeconds;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+/// A known cause of failures, to be named beside the error.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Suspect {
+    /// What is so, and what to do about it.
+    pub advice: String,
+    /// Whether it comes before the advice of the error itself.
+    pub comes_first: bool,
+}
+
 /// A field solver as the adapter sees it: imposed interface data in, one Newton iteration at a time, interface
 /// output out. The solvers themselves know neither this trait nor the coupling.
 pub trait Field: Problem {
@@ -35,6 +44,9 @@ pub trait Field: Problem {
 
     /// The equation that misses its balance most after the last assembly, in words.
     fn worst_equation(&self) -> Option<String>;
+
+    /// What in the committed state is known to end runs, whatever the error of the step says.
+    fn suspect(&self) -> Option<Suspect>;
 
     /// Interface output of the last assembled iterate.
     fn output(&self, output: &mut [f64]);
@@ -74,6 +86,13 @@ pub trait Field: Problem {
 
     /// Name and free dofs of a part.
     fn part(&self, index: usize) -> (&'static str, &[usize]);
+
+    /// Norm of a change of a part that is round-off of the field's natural scale: of lengths for a displacement, of lengths over
+    /// the time step for a velocity beside a moving interface.
+    fn resolution(&self, part: usize) -> f64;
+
+    /// The same of the interface output of the last assembled iterate.
+    fn output_resolution(&self) -> f64;
 
     /// Settings of the Newton loop.
     fn newton(&self) -> &newton::Settings;

@@ -90,6 +90,10 @@ where
         self.0.as_ref().map_or(&[], Participant::output)
     }
 
+    fn resolution(&self) -> f64 {
+        self.0.as_ref().map_or(0.0, Participant::resolution)
+    }
+
     fn begin_step(&mut self, step: &Step) -> Result<(), ParticipantError> {
         self.0.as_mut().map_or(Ok(()), |adapter| adapter.begin_step(step))
     }

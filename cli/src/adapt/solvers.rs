@@ -9,10 +9,11 @@ use partita_numerics::newton::{self, KeptTangent};
 use partita_numerics::phases::PhaseSeconds;
 use partita_structure::{StructureError, StructureSolver, StructureState};
 
-use super::Field;
+use super::backflow;
+use super::field::{Field, Suspect};
 
 macro_rules! field {
-    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr, $verify:expr, $work:expr) => {
+    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr, $verify:expr, $work:expr, $suspect:expr, $resolution:expr, $of_output:expr) => {
         impl Field for $solver {
             type State = $state;
             const NAME: &'static str = $name;
@@ -28,6 +29,9 @@ macro_rules! field {
             }
             fn worst_equation(&self) -> Option<String> {
                 Self::worst_equation(self).map(|worst| worst.to_string())
+            }
+            fn suspect(&self) -> Option<Suspect> {
+                $suspect(self)
             }
             fn output(&self, output: &mut [f64]) {
                 Self::output(self, output);
@@ -63,6 +67,12 @@ macro_rules! field {
                 let part = &self.parts()[index];
                 (part.name, &part.dofs)
             }
+            fn resolution(&self, part: usize) -> f64 {
+                $resolution(self, part)
+            }
+            fn output_resolution(&self) -> f64 {
+                $of_output(self)
+            }
             fn newton(&self) -> &newton::Settings {
                 self.newton_settings()
             }
@@ -76,7 +86,20 @@ macro_rules! field {
     };
 }
 
-field!(FluidSolver<2>, FluidState, FluidError, "fluid", identity, |_: &mut Self| Ok(()), fluid_work);
+field!(
+    FluidSolver<2>,
+    FluidState,
+    FluidError,
+    "fluid",
+    identity,
+    |_: &mut Self| Ok(()),
+    fluid_work,
+    backflow::suspect,
+    // Velocity comes first.
+    |fluid: &Self, part| if part == 0 { fluid.velocity_resolution() } else { fluid.pressure_resolution() },
+    // Nothing is judged by a change of the load.
+    |_: &Self| 0.0
+);
 // No interface data can break a structure before its equations are solved.
 field!(
     StructureSolver<2>,
@@ -85,7 +108,10 @@ field!(
     "structure",
     Ok,
     Self::check_orientation,
-    structure_work
+    structure_work,
+    |_: &Self| None,
+    |structure: &Self, _| structure.resolution(),
+    Self::resolution
 );
 
 fn fluid_work(fluid: &FluidSolver<2>) -> WorkDetails {

@@ -42,7 +42,7 @@ pub(super) fn one_call() -> CouplingSettings {
     }
 }
 
-fn acceleration(acceleration: &schema::Acceleration) -> Acceleration {
+pub(super) fn acceleration(acceleration: &schema::Acceleration) -> Acceleration {
     match acceleration {
         schema::Acceleration::Constant { relaxation } => Acceleration::Constant { omega: relaxation.get() },
         schema::Acceleration::Aitken { initial_relaxation } => {

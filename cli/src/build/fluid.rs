@@ -62,7 +62,7 @@ fn boundary(condition: &schema::Condition, moves: bool) -> BoundaryCondition<2> 
     }
 }
 
-fn settings(fluid: &schema::Fluid, mesh: &Mesh<2>, threads: usize) -> FluidSettings {
+pub(super) fn settings(fluid: &schema::Fluid, mesh: &Mesh<2>, threads: usize) -> FluidSettings {
     FluidSettings {
         time: match fluid.time_scheme {
             schema::FluidTimeScheme::Bdf1 => TimeScheme::Bdf(BdfOrder::One),
@@ -88,7 +88,7 @@ fn settings(fluid: &schema::Fluid, mesh: &Mesh<2>, threads: usize) -> FluidSetti
     }
 }
 
-fn motion(motion: &schema::MeshMotion) -> MotionSettings {
+pub(super) fn motion(motion: &schema::MeshMotion) -> MotionSettings {
     MotionSettings {
         law: match motion.law {
             schema::MotionLaw::Elastic { poisson_ratio, stiffening } => {

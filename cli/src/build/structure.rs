@@ -26,7 +26,11 @@ pub(super) fn solver(
         held,
         wetted: boundary(&space, &structure.wetted),
     };
-    let settings = StructureSettings {
+    Ok(StructureSolver::new(space, model, settings(structure))?)
+}
+
+pub(super) fn settings(structure: &schema::Structure) -> StructureSettings {
+    StructureSettings {
         time: match structure.time_scheme {
             schema::StructureTimeScheme::GeneralizedAlpha { spectral_radius } => {
                 TimeScheme::GeneralizedAlpha { spectral_radius: spectral_radius.get() }
@@ -44,11 +48,10 @@ pub(super) fn solver(
             tolerance: search.tolerance.get(),
             max_evaluations: search.max_evaluations.get(),
         }),
-    };
-    Ok(StructureSolver::new(space, model, settings)?)
+    }
 }
 
-fn material(material: &schema::Material) -> Result<Material, BuildError> {
+pub(super) fn material(material: &schema::Material) -> Result<Material, BuildError> {
     let (law, elastic) = match material {
         schema::Material::SaintVenantKirchhoff(elastic) => (Law::StVenantKirchhoff, elastic),
         schema::Material::NeoHookean(elastic) => (Law::NeoHookean, elastic),

@@ -62,8 +62,7 @@ impl<R> CsvFile<R> {
 
     /// Appends a row.
     pub(super) fn append(&mut self, row: &R) -> Result<(), OutputError> {
-        let cells: Vec<Cell> = self.columns.iter().map(|column| (column.cell)(row)).collect();
-        self.file.append(csv_row(&cells).as_bytes())
+        self.file.append(self::row(&self.columns, row).as_bytes())
     }
 
     pub(super) fn file(&self) -> &LineFile {
@@ -71,8 +70,15 @@ impl<R> CsvFile<R> {
     }
 }
 
-fn header<R>(columns: &[Column<R>]) -> String {
+/// The header of a table.
+pub(super) fn header<R>(columns: &[Column<R>]) -> String {
     csv_header(&columns.iter().map(|column| &column.name).collect::<Vec<_>>())
+}
+
+/// A row of a table.
+pub(super) fn row<R>(columns: &[Column<R>], row: &R) -> String {
+    let cells: Vec<Cell> = columns.iter().map(|column| (column.cell)(row)).collect();
+    csv_row(&cells)
 }
 
 impl<R> fmt::Debug for CsvFile<R> {

@@ -4,12 +4,16 @@
 //! |---|---|
 //! | `scene.toml` | the scene with every default written out; it runs again as it is |
 //! | `input/` | the files that the scene names, as they were read |
-//! | `run.jsonl` | a line for each coupling iteration, for each step, and for each step that failed and was repeated |
-//! | `iterations.csv`, `steps.csv` | the same, as tables |
-//! | `probes.csv` | values that the scene asks for, a row a step |
+//! | `run.jsonl` | the record: a line for each coupling iteration, each step, and each step that failed and was repeated |
+//! | `steps.csv` | convergence and counts of each step, for plots |
+//! | `probes.csv` | values that the scene asks for, a row for each step |
 //! | `fluid.pvd`, `structure.pvd`, `fields/` | fields for a viewer |
 //! | `summary.json` | counts and times of the whole run, written at its end |
 //! | `checkpoint.bin`, `checkpoint.previous.bin` | see [`crate::checkpoint`] |
+//!
+//! `run.jsonl` holds everything that is recorded, once: resume, summary and [`tables`] are made from it. A table of all
+//! iterations or steps is written by `partita table RUN`, when it is wanted. `steps.csv` repeats a dozen numbers per step,
+//! no more; a run goes on without reading them.
 //!
 //! Records, tables and summary count the work of each field: assemblies of the residual, those of them with a tangent,
 //! factorizations of it, solves with it, factorizations that fell back to a slower method, and factorizations and solves
@@ -17,7 +21,7 @@
 //!
 //! Lines and rows go to the system one by one, so that a killed run keeps its history. A resumed run cuts every file
 //! behind the step of its checkpoint and goes on there: but for times, the files of a resumed run and of one that was
-//! never stopped are the same bytes. Times stand in the object `seconds` of a line and in columns that end in `_seconds`.
+//! never stopped are the same bytes. Times stand in the object `seconds` of a line, to the microsecond.
 
 mod csv;
 mod error;
@@ -28,6 +32,7 @@ mod record;
 pub mod space;
 mod summary;
 pub mod table;
+pub mod tables;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -52,8 +57,8 @@ pub const SCENE: &str = "scene.toml";
 pub const RECORDS: &str = "run.jsonl";
 /// Steps as a table.
 pub const STEPS: &str = "steps.csv";
-/// Coupling iterations as a table.
-pub const ITERATIONS: &str = "iterations.csv";
+/// What earlier versions wrote beside the records, with nothing in it that these lack.
+const EARLIER: &str = "iterations.csv";
 /// Probed values as a table.
 pub const PROBES: &str = "probes.csv";
 /// Counts and times of the whole run.
@@ -82,7 +87,6 @@ pub const SUMMARY: &str = "summary.json";
 pub struct RunWriter {
     dir: PathBuf,
     records: LineFile,
-    iterations: CsvFile<IterationRecord>,
     steps: CsvFile<StepRecord>,
     probes: CsvFile<ProbeRow>,
     probe_count: usize,
@@ -110,7 +114,6 @@ impl RunWriter {
         Ok(Self {
             dir: dir.to_owned(),
             records,
-            iterations: CsvFile::create(dir.join(ITERATIONS), record::iteration_columns())?,
             steps: CsvFile::create(dir.join(STEPS), record::step_columns())?,
             probes: CsvFile::create(dir.join(PROBES), record::probe_columns(probes))?,
             probe_count: probes.len(),
@@ -139,25 +142,19 @@ impl RunWriter {
         mut clock: Clock,
     ) -> Result<Self, OutputError> {
         let step = stamp.step;
-        let (records, totals, iteration_lines) = resume_records(dir.join(RECORDS), step)?;
-        let (iterations, iteration_rows) =
-            CsvFile::resume(dir.join(ITERATIONS), record::iteration_columns(), step)?;
+        let (records, totals) = resume_records(dir.join(RECORDS), step)?;
         let (steps, step_rows) = CsvFile::resume(dir.join(STEPS), record::step_columns(), step)?;
         let (probe_file, _) = CsvFile::resume(dir.join(PROBES), record::probe_columns(probes), step)?;
-        let complete = [
-            (&records, totals.steps == step),
-            (iterations.file(), iteration_rows == iteration_lines),
-            (steps.file(), step_rows == step),
-        ];
+        let complete = [(&records, totals.steps == step), (steps.file(), step_rows == step)];
         if let Some((file, _)) = complete.iter().find(|(_, complete)| !complete) {
             return Err(OutputError::Cut { path: file.path().to_owned(), step });
         }
         remove_if_there(&dir.join(SUMMARY))?;
+        remove_if_there(&dir.join(EARLIER))?;
         clock.go_on_from(stamp.spent);
         Ok(Self {
             dir: dir.to_owned(),
             records,
-            iterations,
             steps,
             probes: probe_file,
             probe_count: probes.len(),
@@ -172,10 +169,7 @@ impl RunWriter {
     /// # Errors
     /// What the system refuses.
     pub fn iteration(&mut self, record: &IterationRecord) -> Result<(), OutputError> {
-        self.timed(|run| {
-            run.records.append(&Line::Iteration(record).to_json())?;
-            run.iterations.append(record)
-        })
+        self.timed(|run| run.records.append(&Line::Iteration(record).to_json()))
     }
 
     /// Writes a finished step, after its iterations.
@@ -238,7 +232,7 @@ impl RunWriter {
     /// What the system refuses.
     pub fn stamp(&mut self, step: usize, time: f64) -> Result<Stamp, OutputError> {
         self.timed(|run| {
-            let files = [&run.records, run.iterations.file(), run.steps.file(), run.probes.file()];
+            let files = [&run.records, run.steps.file(), run.probes.file()];
             files.into_iter().try_for_each(LineFile::synchronize)
         })?;
         Ok(Stamp { step, time, spent: self.clock.spent() })
@@ -292,20 +286,19 @@ impl RunWriter {
     }
 }
 
-/// Cuts the records behind `step`; returns the totals of what is kept, and the number of iterations in it.
-fn resume_records(path: PathBuf, step: usize) -> Result<(LineFile, Totals, usize), OutputError> {
+/// Cuts the records behind `step`; returns the totals of what is kept, too.
+fn resume_records(path: PathBuf, step: usize) -> Result<(LineFile, Totals), OutputError> {
     let mut totals = Totals::default();
-    let mut iterations = 0;
     let file = LineFile::resume(path, |_, line| {
         match serde_json::from_str(line).map_err(|error| error.to_string())? {
-            Record::Iteration(record) if record.step <= step => iterations += 1,
+            Record::Iteration(record) if record.step <= step => {}
             Record::Step(record) if record.step <= step => totals.add(&record),
             Record::Retry(record) if record.step <= step => totals.retries += 1,
             _ => return Ok(false),
         }
         Ok(true)
     })?;
-    Ok((file, totals, iterations))
+    Ok((file, totals))
 }
 
 /// Removes what a run has written to `dir`, so that a new one can start there.
@@ -318,7 +311,7 @@ pub fn remove_run(dir: &Path) -> Result<(), OutputError> {
     let Ok(file) = fs::File::open(&records) else { return Ok(()) };
     lines::lock(&file, &records)?;
     let collections = Series::ALL.map(Series::collection);
-    let files = [SCENE, STEPS, ITERATIONS, PROBES, SUMMARY].into_iter().chain(checkpoint::FILES);
+    let files = [SCENE, STEPS, EARLIER, PROBES, SUMMARY].into_iter().chain(checkpoint::FILES);
     let ours: Vec<&str> = files.chain(collections.iter().map(String::as_str)).collect();
     let known = |name: &str| {
         let name = name.strip_suffix(".part").unwrap_or(name);

@@ -1,4 +1,4 @@
-//! Records of the coupling as JSON lines and as rows of `iterations.csv`, `steps.csv` and `probes.csv`.
+//! Records of the coupling as JSON lines and as rows of tables.
 //!
 //! Times stand in the object `seconds` of a line and in columns whose names end in `_seconds`; nothing else depends on
 //! the machine.
@@ -52,7 +52,7 @@ pub(super) fn probe_columns(names: &[String]) -> Vec<Column<ProbeRow>> {
     place.into_iter().chain(names.iter().enumerate().map(probe)).collect()
 }
 
-/// Columns of `iterations.csv`.
+/// Columns of the table of all iterations.
 ///
 /// `limit` is a number, `inf` (to convergence) or `settled` (until the output settles); `change` is the largest
 /// relative change of any part of the field's solution.
@@ -116,8 +116,14 @@ pub(super) fn step_columns() -> Vec<Column<StepRecord>> {
         add("factorizations", |field| field.factorizations);
         add("solves", |field| field.solves);
     }
+    columns
+}
+
+/// Columns of the table of all steps: those of `steps.csv`, then times and more of each field's work.
+pub(super) fn all_step_columns() -> Vec<Column<StepRecord>> {
+    let mut columns = step_columns();
     columns.extend(seconds_columns());
-    columns.extend(detail_columns(|r: &R, name| {
+    columns.extend(detail_columns(|r: &StepRecord, name| {
         r.fields.iter().find(|field| field.name == name).map(|field| field.details)
     }));
     columns

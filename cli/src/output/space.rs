@@ -10,10 +10,10 @@ const NUMBER: u64 = 10;
 const CELL: u64 = 8;
 /// Bytes of a field file beside its numbers, its place in the collection included.
 const FIELD_FILE: u64 = 2000;
-/// Bytes of the lines that one coupling iteration adds to records and tables.
-const ITERATION: u64 = 1500;
-/// Bytes of the lines that one step adds.
-const STEP: u64 = 1500;
+/// Bytes of the line that one coupling iteration adds to the records.
+const ITERATION: u64 = 1300;
+/// Bytes of the lines that one step adds to records and tables.
+const STEP: u64 = 1300;
 /// Checkpoints that lie in the folder while one is written: the latest, the one before, and the new one.
 pub const CHECKPOINTS: usize = 3;
 
@@ -121,8 +121,8 @@ mod tests {
     #[test]
     fn parts_add_up_and_never_overflow() {
         let estimate = Estimate::of_records(10, 8).with_fields(5, 100, 3, 50).with_checkpoints(3, 1000);
-        assert_eq!((estimate.records, estimate.fields, estimate.checkpoints), (135_000, 27_000, 3000));
-        assert_eq!(estimate.total(), 165_000);
+        assert_eq!((estimate.records, estimate.fields, estimate.checkpoints), (117_000, 27_000, 3000));
+        assert_eq!(estimate.total(), 147_000);
         let endless = Estimate::of_records(usize::MAX, 8).with_fields(usize::MAX, 100, 3, 50);
         assert_eq!(endless.total(), u64::MAX);
     }

@@ -145,6 +145,7 @@ mod tests {
             |found: &str| CHOICES.iter().any(|place| place.replace(".*.filter", ".iqn_ils.filter") == found);
         let mut all = Vec::new();
         places_to_choose(&SCENE, &mut Vec::new(), &mut all);
+        assert!(all.len() >= CHOICES.len(), "the walk through the schema misses places: {all:?}");
         for place in all.iter().filter(|place| !place.contains(".iqn_imvls.") && !place.contains(".iqn_mvj."))
         {
             assert!(listed(place), "{place} is missing in CHOICES");
@@ -173,25 +174,121 @@ mod tests {
         }
     }
 
+    /// The text says `Default: ...` and marks a word with `(default)`; the value is what the type gives.
     #[test]
-    fn every_key_is_documented() {
-        let mut bare = Vec::new();
-        undocumented(&SCENE, &mut Vec::new(), &mut bare);
-        assert_eq!(bare, Vec::<String>::new());
+    fn the_default_in_words_is_that_of_the_schema() {
+        let (mut wrong, mut compared) = (Vec::new(), 0);
+        compare_defaults(&SCENE, &mut Vec::new(), &mut wrong, &mut compared);
+        assert_eq!(wrong, Vec::<String>::new());
+        assert!(compared > 60, "{compared} defaults are hardly all");
     }
 
-    fn undocumented(node: &'static Value, path: &mut Vec<String>, bare: &mut Vec<String>) {
+    fn compare_defaults(
+        node: &'static Value,
+        path: &mut Vec<String>,
+        wrong: &mut Vec<String>,
+        compared: &mut usize,
+    ) {
         let node = resolved(node);
         for (name, inner) in object(node, "properties") {
             path.push(name.clone());
+            let text = inner.get("description").or_else(|| resolved(inner).get("description"));
+            let told = text.and_then(Value::as_str).and_then(told_default);
+            if let (Some(told), Some(value)) = (told, inner.get("default")) {
+                *compared += 1;
+                if !is_told(&told, value) {
+                    wrong.push(format!("{}: the text says {told}, the schema {value}", path.join(".")));
+                }
+            }
+            compare_defaults(inner, path, wrong, compared);
+            path.pop();
+        }
+        let any_name = node.get("additionalProperties").filter(|inner| inner.is_object());
+        for inner in alternatives(node).chain(any_name) {
+            compare_defaults(inner, path, wrong, compared);
+        }
+    }
+
+    /// What a doc comment calls the default.
+    fn told_default(text: &str) -> Option<String> {
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        if let Some((before, _)) = text.split_once(" (default") {
+            return before.rsplit('`').nth(1).map(str::to_owned);
+        }
+        let (_, told) = text.split_once("Default: ")?;
+        let value = match told.strip_prefix('`') {
+            Some(code) => code.split('`').next(),
+            None => told.strip_suffix('.').or(told.split_once(". ").map(|(value, _)| value)),
+        };
+        value.map(str::to_owned)
+    }
+
+    /// Whether these words mean this value: TOML, the name of a choice, or `none` for what is empty.
+    fn is_told(told: &str, value: &Value) -> bool {
+        let name =
+            value.as_object().filter(|choice| choice.len() == 1).and_then(|choice| choice.keys().next());
+        if told.starts_with("none") {
+            let items = value.as_array().map(Vec::len).or(value.as_object().map(serde_json::Map::len));
+            return items == Some(0) || value.as_array().is_some_and(|all| all.iter().all(|x| *x == 0.0));
+        }
+        match format!("x = {told}").parse::<toml::Table>() {
+            Ok(table) => {
+                same(&serde_json::to_value(&table["x"]).expect("TOML is JSON, but for dates"), value)
+            }
+            Err(_) => value == told || name.is_some_and(|name| name == told),
+        }
+    }
+
+    /// Equal, and 1 is 1.0.
+    fn same(a: &Value, b: &Value) -> bool {
+        match (a, b) {
+            (Value::Array(a), Value::Array(b)) => {
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b))
+            }
+            (Value::Object(a), Value::Object(b)) => {
+                a.len() == b.len() && a.iter().all(|(key, a)| b.get(key).is_some_and(|b| same(a, b)))
+            }
+            _ => a == b || (a.is_number() && a.as_f64() == b.as_f64()),
+        }
+    }
+
+    #[test]
+    fn a_default_in_words_is_found_and_compared() {
+        assert_eq!(told_default("A length. Default: 1e-6.").as_deref(), Some("1e-6"));
+        assert_eq!(told_default("Time: `\"bdf1\"` (default), or `\"bdf2\"`.").as_deref(), Some("\"bdf1\""));
+        assert!(is_told("1", &serde_json::json!(1.0)) && !is_told("1", &serde_json::json!(0.5)));
+        assert!(
+            is_told("\"bdf1\"", &serde_json::json!("bdf1"))
+                && !is_told("\"bdf1\"", &serde_json::json!("bdf2"))
+        );
+        assert!(
+            is_told("none; they stay fixed", &serde_json::json!([]))
+                && !is_told("none", &serde_json::json!(["a"]))
+        );
+        assert!(!is_told("{ qr3 = 1e-3 }", &serde_json::json!({ "qr3": 0.01 })));
+    }
+
+    #[test]
+    fn every_key_is_documented() {
+        let (mut bare, mut seen) = (Vec::new(), 0);
+        undocumented(&SCENE, &mut Vec::new(), &mut bare, &mut seen);
+        assert_eq!(bare, Vec::<String>::new());
+        assert!(seen > 100, "{seen} keys are hardly all");
+    }
+
+    fn undocumented(node: &'static Value, path: &mut Vec<String>, bare: &mut Vec<String>, seen: &mut usize) {
+        let node = resolved(node);
+        for (name, inner) in object(node, "properties") {
+            path.push(name.clone());
+            *seen += 1;
             if describe(path).is_none() {
                 bare.push(path.join("."));
             }
-            undocumented(inner, path, bare);
+            undocumented(inner, path, bare, seen);
             path.pop();
         }
         for inner in alternatives(node) {
-            undocumented(inner, path, bare);
+            undocumented(inner, path, bare, seen);
         }
     }
 }

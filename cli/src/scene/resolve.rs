@@ -18,6 +18,7 @@ use super::shapes::{self, Shapes};
 use super::translate::translate;
 use super::validate::{Check, validate, validate_shapes};
 use super::write;
+use crate::file_kind::FileKind;
 
 /// A scene that has passed every check, with its shapes.
 #[derive(Debug, Clone)]
@@ -57,6 +58,9 @@ pub const SCENE_FILE: &str = "scene.toml";
 pub fn load(path: &Path, overrides: &[String]) -> Result<Resolved, SceneError> {
     let file = if path.is_dir() { path.join(SCENE_FILE) } else { path.to_owned() };
     let text = fs::read_to_string(&file).map_err(|error| unreadable(path, &file, &error))?;
+    if let Some((what, hint)) = FileKind::Scene.misplaced(path) {
+        return Err(SceneError::plain(what, hint));
+    }
     let folder = file.parent().unwrap_or(Path::new(""));
     let resolved = read_in(folder, &file.display().to_string(), &text, overrides)?;
     Ok(Resolved { name: name_of(&file), file, ..resolved })

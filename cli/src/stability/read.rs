@@ -8,6 +8,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::template::{self, Value};
+use crate::file_kind::FileKind;
 use crate::nearest::nearest;
 use crate::scene::{self, SceneError};
 
@@ -111,6 +112,9 @@ impl Map {
     /// # Errors
     /// [`SceneError`] with the place in the map and how to mend it. Nothing has been written then.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
+        if let Some((what, hint)) = FileKind::Map.misplaced(path) {
+            return Err(SceneError::plain(what, hint));
+        }
         let text = fs::read_to_string(path).map_err(|error| {
             let what = format!("{} cannot be read: {error}", path.display());
             SceneError::plain(what, "name a map file, such as maps/tank.toml")

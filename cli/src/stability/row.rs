@@ -57,22 +57,6 @@ impl Outcome {
             Self::Broken => "broken",
         }
     }
-
-    /// In the picture's key.
-    #[must_use]
-    pub fn phrase(self) -> &'static str {
-        match self {
-            Self::Converged => "converged",
-            Self::Unconverged => "steps accepted that did not converge",
-            Self::EnergyGrows => "energy grows",
-            Self::IterationBound => "iteration bound reached",
-            Self::Diverged => "coupling diverged",
-            Self::FieldFailed => "a field could not be solved",
-            Self::OutOfBudget => "out of budget",
-            Self::Refused => "cannot be built",
-            Self::Broken => "error of the program",
-        }
-    }
 }
 
 /// One cell of a map.
@@ -127,6 +111,11 @@ impl Row {
         (count > 0).then(|| self.iterations.iter().sum::<usize>() as f64 / count as f64)
     }
 
+    /// The mean as tables have it.
+    pub(super) fn rounded_mean(&self) -> Option<String> {
+        self.mean_iterations().map(|mean| format!("{mean:.2}"))
+    }
+
     /// Largest of the finished steps.
     #[must_use]
     pub fn max_iterations(&self) -> Option<usize> {
@@ -150,7 +139,7 @@ pub fn to_csv(map: &Map, rows: &[Row]) -> String {
             first.to_owned(),
             second.to_owned(),
             row.outcome.word().to_owned(),
-            row.mean_iterations().map(|mean| format!("{mean:.2}")).unwrap_or_default(),
+            row.rounded_mean().unwrap_or_default(),
             row.max_iterations().map(|most| most.to_string()).unwrap_or_default(),
             row.cause.clone(),
             row.failing_step.map(|step| step.to_string()).unwrap_or_default(),

@@ -9,6 +9,7 @@ use super::conduct::{Setting, Standard, Study};
 use super::error::{Source, StudyError, first_problem};
 use super::file::{self, Choice, File, Measure, Refinement, Take};
 use super::quantity::Quantity;
+use crate::file_kind::FileKind;
 use crate::nearest::nearest;
 use crate::scene::{self, Resolved};
 use crate::{build, probe};
@@ -20,6 +21,9 @@ impl Study {
     ///
     /// [`StudyError`] with the first place that is wrong and how to mend it.
     pub fn load(path: &Path) -> Result<Self, StudyError> {
+        if let Some((what, hint)) = FileKind::Study.misplaced(path) {
+            return Err(StudyError::plain(what, hint));
+        }
         let text = std::fs::read_to_string(path).map_err(|error| {
             StudyError::plain(
                 format!("{} cannot be read: {error}", path.display()),

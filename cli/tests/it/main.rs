@@ -3,6 +3,8 @@
 mod beam;
 mod benchmarks;
 mod checkpoint;
+mod closed;
+mod damping;
 mod effects;
 mod failures;
 mod field_cases;

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use partita::checkpoint::Stamp;
 use partita::output::fields::{Series, Snapshot, Tessellation};
+use partita::output::tables::{self, Rows, TableError};
 use partita::output::{Clock, Ending, OutputError, RunWriter, Seconds, remove_run};
 use partita_coupling::participant::{Change, Effort, NewtonLimit, PhaseTimes, WorkDetails};
 use partita_coupling::record::{
@@ -117,16 +118,6 @@ fn strip_times(name: &str, text: &str) -> String {
             before.to_owned() + "\n"
         };
         text.lines().map(strip).collect()
-    } else if ["steps.csv", "iterations.csv"].contains(&name) {
-        let kept = text
-            .lines()
-            .next()
-            .expect("a header")
-            .split(',')
-            .take_while(|column| !column.ends_with("_seconds"));
-        let kept = kept.count();
-        let strip = |line: &str| line.split(',').take(kept).collect::<Vec<_>>().join(",") + "\n";
-        text.lines().map(strip).collect()
     } else {
         text.to_owned()
     }
@@ -160,23 +151,85 @@ fn the_folder_holds_every_record_once() {
     assert!(dir.path().join("fields/structure-000002.vtu").is_file());
 }
 
+/// What a run has done is in one place: no file but the records tells of single iterations.
+#[test]
+fn nothing_is_recorded_twice() {
+    let dir = tempfile::tempdir().expect("a temporary folder");
+    let size = |name: &str| fs::metadata(dir.path().join(name)).expect("a file").len();
+    let mut writer = create(dir.path());
+    write_steps(&mut writer, [6, 6, 6, 6].into_iter().enumerate().map(|(k, count)| 10 * k + count), 1.0);
+    drop(writer);
+    let names: Vec<String> =
+        without_times(dir.path()).into_keys().filter(|name| !name.contains('/')).collect();
+    assert_eq!(names, ["fluid.pvd", "probes.csv", "run.jsonl", "scene.toml", "steps.csv", "structure.pvd"]);
+    assert!(20 * size("steps.csv") < size("run.jsonl"), "{} and {}", size("steps.csv"), size("run.jsonl"));
+}
+
+#[test]
+fn the_table_of_an_earlier_version_goes_with_the_run() {
+    let dir = tempfile::tempdir().expect("a temporary folder");
+    let mut writer = create(dir.path());
+    write_steps(&mut writer, 1..=2, 1.0);
+    let stamp = writer.stamp(2, DT * 2.0).expect("synchronized");
+    drop(writer);
+    let earlier = dir.path().join("iterations.csv");
+    fs::write(&earlier, "step,iteration\n").expect("written");
+    drop(RunWriter::resume(dir.path(), &stamp, &probes(), Clock::start()).expect("a run"));
+    assert!(!earlier.exists(), "it would not grow with the run");
+    fs::write(&earlier, "step,iteration\n").expect("written");
+    remove_run(dir.path()).expect("a run's folder");
+    assert!(!earlier.exists());
+}
+
+#[test]
+fn a_table_of_half_a_line_or_of_none_is_not_guessed() {
+    let dir = tempfile::tempdir().expect("a temporary folder");
+    let mut writer = create(dir.path());
+    write_steps(&mut writer, 1..=2, 1.0);
+    drop(writer);
+    let path = dir.path().join("run.jsonl");
+    let text = fs::read_to_string(&path).expect("records");
+    let table = || {
+        let mut out = Vec::new();
+        tables::write(dir.path(), Rows::Iterations, &mut out).map(|()| String::from_utf8(out).expect("text"))
+    };
+    fs::write(&path, text.clone() + "{\"iteration\":{\"st").expect("half a line");
+    assert_eq!(
+        table().expect("a table").lines().count(),
+        1 + 1 + 2,
+        "a killed run has whole lines before the last"
+    );
+    fs::write(&path, "{\"step\":7}\n".to_owned() + &text).expect("no record");
+    let error = table().expect_err("line 1 is no record");
+    assert!(matches!(error, TableError::Records(OutputError::Corrupt { line: 1, .. })), "{error}");
+}
+
 #[test]
 fn tables_say_what_the_records_say() {
     let dir = tempfile::tempdir().expect("a temporary folder");
     let mut writer = create(dir.path());
     write_steps(&mut writer, 2..=2, 1.0);
     drop(writer);
-    let table = |name: &str| {
-        let text = fs::read_to_string(dir.path().join(name)).expect("a table");
+    let table = |text: &str| {
         let rows: Vec<Vec<String>> =
             text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
-        assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{name}");
+        assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{text}");
         // One line a column: easier to read than to count commas.
         let shown = |cell: &str| if cell.is_empty() { "-".to_owned() } else { cell.to_owned() };
         let column = |c: usize| rows.iter().map(|row| shown(&row[c])).collect::<Vec<_>>().join("  ");
         (0..rows[0].len()).map(column).collect::<Vec<_>>().join("\n")
     };
-    insta::assert_snapshot!(table("iterations.csv"), @r"
+    let made = |rows| {
+        let mut text = Vec::new();
+        tables::write(dir.path(), rows, &mut text).expect("a table");
+        String::from_utf8(text).expect("text")
+    };
+    let kept = fs::read_to_string(dir.path().join("steps.csv")).expect("a table");
+    let (iterations, steps) = (made(Rows::Iterations), made(Rows::Steps));
+    for (kept, made) in kept.lines().zip(steps.lines()) {
+        assert!(made.starts_with(kept), "the kept table is the beginning of the whole one");
+    }
+    insta::assert_snapshot!(table(&iterations), @r"
     step  2  2
     iteration  1  2
     residual  0.1  0.05
@@ -222,7 +275,7 @@ fn tables_say_what_the_records_say() {
     structure_mesh_factorizations  0  0
     structure_mesh_solves  1  1
     ");
-    insta::assert_snapshot!(table("steps.csv"), @r"
+    insta::assert_snapshot!(table(&kept), @r"
     step  2
     time  0.02
     dt  0.01
@@ -240,6 +293,9 @@ fn tables_say_what_the_records_say() {
     structure_assemblies  3
     structure_factorizations  1
     structure_solves  9
+    ");
+    let rest = table(&steps).lines().skip(17).collect::<Vec<_>>().join("\n");
+    insta::assert_snapshot!(rest, @r"
     fluid_seconds  2.0
     fluid_assembly_seconds  0.25
     fluid_factorization_seconds  0.125
@@ -289,7 +345,7 @@ fn a_resumed_run_writes_the_same_bytes_but_for_times() {
     // The run goes on behind the checkpoint, into another history, and is killed while it writes a line.
     write_steps(&mut writer, [4, 4, 5, 8], 2.0);
     drop(writer);
-    for name in ["run.jsonl", "iterations.csv", "steps.csv", "probes.csv"] {
+    for name in ["run.jsonl", "steps.csv", "probes.csv"] {
         let path = parts.path().join(name);
         let text = fs::read_to_string(&path).expect("text");
         fs::write(&path, text + "{\"iteration\":{\"st").expect("half a line");
@@ -321,12 +377,7 @@ fn half_a_line_right_behind_the_checkpoint_is_dropped() {
         write_steps(&mut writer, 1..=2, 1.0);
         writer.stamp(2, DT * 2.0).expect("synchronized")
     });
-    for (name, half) in [
-        ("run.jsonl", "{\"iteration\":{\"st"),
-        ("iterations.csv", "3,1,0."),
-        ("steps.csv", "3"),
-        ("probes.csv", "2"),
-    ] {
+    for (name, half) in [("run.jsonl", "{\"iteration\":{\"st"), ("steps.csv", "3"), ("probes.csv", "2")] {
         let path = killed.path().join(name);
         let text = fs::read_to_string(&path).expect("text");
         fs::write(&path, text + half).expect("half a line");
@@ -354,8 +405,8 @@ fn a_run_killed_while_it_wrote_the_step_of_the_checkpoint_is_cut_not_guessed() {
 }
 
 #[test]
-fn a_lost_row_is_found_in_each_table() {
-    for name in ["iterations.csv", "steps.csv"] {
+fn a_lost_row_is_found_in_the_table() {
+    for name in ["steps.csv"] {
         let dir = tempfile::tempdir().expect("a temporary folder");
         let mut writer = create(dir.path());
         write_steps(&mut writer, 1..=2, 1.0);
@@ -376,7 +427,7 @@ fn changed_lines_are_named() {
     for (name, line, text) in [
         ("run.jsonl", 2, "{\"step\":7}"),
         ("steps.csv", 1, "step,time"),
-        ("iterations.csv", 3, "x,1"),
+        ("steps.csv", 3, "x,1"),
         ("probes.csv", 1, "step,time,tip_x"),
     ] {
         let dir = tempfile::tempdir().expect("a temporary folder");

@@ -122,7 +122,7 @@ fn a_resolved_scene_holds_every_default() {
     body_force = [0.0, 0.0]
     clamped = ["left", "right"]
     wetted = ["top"]
-    time_scheme = { generalized_alpha = { spectral_radius = 1.0 } }
+    time_scheme = { generalized_alpha = { spectral_radius = 0.5 } }
 
     [structure.geometry.rectangle]
     origin = [0.0, -0.05]

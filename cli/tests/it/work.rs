@@ -93,6 +93,7 @@ fn both_fields_hold_the_data_of_the_interface() {
             .collect();
         let forces: Vec<f64> =
             nodes.flat_map(|n| [-fluid.residual()[3 * n], -fluid.residual()[3 * n + 1]]).collect();
+        assert!(!moved.is_empty() && moved.iter().any(|d| *d != 0.0) && forces.iter().any(|f| *f != 0.0));
         assert_eq!(moved, interface.displacement);
         assert_eq!(forces, interface.load);
         assert_eq!(structure(&run).state().interface_force, interface.transferred_load);
@@ -129,6 +130,8 @@ fn fluid_boundary_lies_on_the_surface_of_the_structure() {
     }
     let fluid = run.first().field().expect("the tank has a fluid");
     let sag = structure(&run).displacement_at(&[0.5, 1.0])[1].abs();
+    assert!(sag > 0.0, "the bottom gives way");
+    assert_eq!((fluid.interface_nodes().len(), run.interface().displacement.len()), (21, 42));
     for (&node, moved) in fluid.interface_nodes().iter().zip(run.interface().displacement.chunks_exact(2)) {
         let place = fluid.mesh().points()[node][0]; // the tank is one metre wide
         let surface = structure(&run).displacement_at(&[place, 1.0]);

@@ -3,7 +3,7 @@
 use partita_mesh::{Mesh, Place};
 
 use crate::error::FluidError;
-use crate::model::FluidModel;
+use crate::model::{BoundaryCondition, FluidModel};
 use crate::settings::{FluidSettings, TimeScheme};
 
 /// Checks properties, groups, and the level of pressure.
@@ -81,9 +81,9 @@ fn pressure_level<const D: usize>(
         model.boundary.iter().find(|entry| wanted(entry)).map(|(group, _)| group.clone())
     };
     let natural = first(|(_, condition)| condition.is_natural());
-    let moving = first(|(_, condition)| condition.moves());
+    let elastic = first(|(_, condition)| matches!(condition, BoundaryCondition::Interface));
     let nodes = mesh.points().len();
-    match (natural, moving, settings.pressure_pin) {
+    match (natural, elastic, settings.pressure_pin) {
         (None, Some(group), _) => Err(FluidError::ClosedAndMoving { group }),
         (None, None, None) => Err(FluidError::PressureLevel),
         (Some(group), _, Some(_)) => Err(FluidError::NeedlessPin { group }),

@@ -100,10 +100,14 @@ fn pressure_needs_a_level_but_only_one() {
     ");
     let moving = with(3, BoundaryCondition::Slip);
     insta::assert_snapshot!(refused(moving.clone(), settings(BDF1)), @r"
-    fluid: boundary group `bottom` moves, and every boundary prescribes the normal velocity: an incompressible fluid admits only motions that keep its volume, and a pressure pin would hide the rest
+    fluid: boundary group `bottom` moves with a structure, and every boundary prescribes the normal velocity: an incompressible fluid admits only motions that keep its volume, and the iterates of an elastic structure do not
     hint: make one boundary an outflow or a traction
     ");
     assert!(matches!(refused(moving, pinned(0)), FluidError::ClosedAndMoving { .. }));
+    let mut driven = with(2, BoundaryCondition::WallMotion(field(|_, t| [0.0, t])));
+    driven.boundary[3].1 = BoundaryCondition::NoSlip;
+    assert!(matches!(refused(driven.clone(), settings(BDF1)), FluidError::PressureLevel));
+    assert!(FluidSolver::new(unit_square(2), driven, pinned(0)).is_ok(), "each step looks at the volume");
 }
 
 #[test]

@@ -5,6 +5,7 @@
 mod added_mass;
 mod allocation;
 mod balance;
+mod closed;
 mod common;
 mod conditions;
 mod errors;

@@ -76,6 +76,7 @@ proptest! {
 fn points_of_the_unit_cube_become_points_of_the_element_exact_at_its_ends() {
     let knots = Knots::new(1, vec![0.1, 0.1, 0.3, 0.7, 0.7]).unwrap();
     let curve = Spline::new(vec![knots], vec![[0.0], [1.0], [2.0]]).unwrap();
+    assert_eq!(curve.elements().count(), 2);
     for element in curve.elements() {
         let [start, end] = element.ranges()[0];
         assert_eq!((element.at([0.0]), element.at([1.0])), ([start], [end]));

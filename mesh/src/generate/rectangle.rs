@@ -12,13 +12,13 @@ use crate::mesh::{Mesh, NamedFacets};
 #[serde(rename_all = "snake_case")]
 pub enum Diagonal {
     /// Two triangles, the cut runs from the lower left to the upper right corner.
-    #[default]
     Right,
     /// Two triangles, the cut runs from the lower right to the upper left corner.
     Left,
     /// Two triangles, right and left in turn (union jack).
     Alternating,
-    /// Four triangles round a node at the square's centre.
+    /// Four triangles round a node at the square's centre: no direction is preferred.
+    #[default]
     Crossed,
 }
 

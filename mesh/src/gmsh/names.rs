@@ -9,14 +9,14 @@ use super::fault::{Fault, excerpt};
 use super::header::Version;
 
 /// A name as the file gives it; format 2.0 does not say of which dimension its group is.
-pub(super) struct Name {
+pub(super) struct Label {
     dimension: Option<usize>,
     tag: u64,
     name: String,
 }
 
 /// Reads lines of dimension (unless the format is 2.0), tag and quoted name.
-pub(super) fn read(cursor: &mut Cursor, version: Version) -> Result<Vec<Name>, ParseError> {
+pub(super) fn read(cursor: &mut Cursor, version: Version) -> Result<Vec<Label>, ParseError> {
     let count: u64 = cursor.text_number("the number of names")?;
     // A line has a tag and a name in quotes: never shorter than three numbers.
     let least = 6;
@@ -38,11 +38,11 @@ pub(super) fn read(cursor: &mut Cursor, version: Version) -> Result<Vec<Name>, P
     Ok(names)
 }
 
-fn second_name(cursor: &Cursor, dimension: usize, group: Name) -> ParseError {
+fn second_name(cursor: &Cursor, dimension: usize, group: Label) -> ParseError {
     cursor.fail(Fault::DuplicateName { dimension, tag: group.tag, name: group.name })
 }
 
-fn line(cursor: &mut Cursor, version: Version) -> Result<Name, ParseError> {
+fn line(cursor: &mut Cursor, version: Version) -> Result<Label, ParseError> {
     let first: i64 = cursor.text_number("a group's dimension")?;
     let place = cursor.mark;
     cursor.skip(|byte| byte == b' ' || byte == b'\t');
@@ -70,7 +70,7 @@ fn line(cursor: &mut Cursor, version: Version) -> Result<Name, ParseError> {
         return Err(cursor.fail(Fault::NameWithoutDimension { tag, name: name.to_owned() }));
     }
     cursor.at += line.len();
-    Ok(Name { dimension, tag, name: name.to_owned() })
+    Ok(Label { dimension, tag, name: name.to_owned() })
 }
 
 /// The name between the first two quotes; attributes that other tools write behind it are passed over.
@@ -79,15 +79,15 @@ fn quoted(text: &[u8]) -> Option<&str> {
     let end = inner.iter().position(|&byte| byte == b'"')?;
     let (name, rest) = (&inner[..end], &inner[end + 1..]);
     // A quote within the name would cut it.
-    let ends = rest.first().is_none_or(u8::is_ascii_whitespace)
-        && rest.iter().filter(|&&byte| byte == b'"').count().is_multiple_of(2);
+    let ends =
+        rest.first().is_none_or(u8::is_ascii_whitespace) && rest.split(|&byte| byte == b'"').count() % 2 == 1;
     str::from_utf8(name).ok().filter(|name| ends && !name.is_empty())
 }
 
 /// The names of groups; a name without dimension is that of every group of its number.
 pub(super) fn resolve(
     cursor: &Cursor,
-    names: Vec<Name>,
+    names: Vec<Label>,
     blocks: &[ElementBlock],
 ) -> Result<Vec<GroupName>, ParseError> {
     let groups_of = |block: &ElementBlock| {

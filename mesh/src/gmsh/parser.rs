@@ -6,7 +6,7 @@ use super::entities::{self, Entities};
 use super::error::ParseError;
 use super::fault::Fault;
 use super::header::{self, Version};
-use super::names::{self, Name};
+use super::names::{self, Label};
 use super::numbering::{GroupSets, NodeList};
 use super::{version2, version4};
 
@@ -33,7 +33,7 @@ struct Parser<'a> {
     cursor: Cursor<'a>,
     version: Version,
     sets: GroupSets,
-    names: Option<Vec<Name>>,
+    names: Option<Vec<Label>>,
     entities: Option<Entities>,
     nodes: Option<NodeList>,
     elements: Option<Vec<ElementBlock>>,

@@ -39,7 +39,7 @@ impl Owners {
 }
 
 fn key(kind: ElementKind, nodes: &[usize]) -> Key {
-    sorted(nodes[..kind.dimension() + 1].iter().copied())
+    sorted(nodes[..=kind.dimension()].iter().copied())
 }
 
 fn sorted(corners: impl Iterator<Item = usize>) -> Key {

@@ -59,10 +59,10 @@ pub enum Failure<E> {
         /// The bound that was missed.
         bound: Bound,
     },
-    /// The residual stands still at round-off, above its bound.
+    /// The residual stands still above its bound, and above its round-off.
     #[error(
-        "Newton iteration {iteration}: the residual stands still at {residual}; the bound is {bound}\n\
-         hint: this is round-off: the bound asks for more than the arithmetic can give"
+        "Newton iteration {iteration}: the residual stands still at {residual}{}; the bound is {bound}\n\
+         hint: the tangent may be nearly singular, or the bound may ask for more than the arithmetic can give", compared(*round_offs)
     )]
     Stagnated {
         /// The iteration, from 1.
@@ -71,5 +71,15 @@ pub enum Failure<E> {
         residual: ResidualNorm,
         /// The bound that cannot be met.
         bound: Bound,
+        /// The residual in units of the round-off of its terms, infinite where that is not known.
+        round_offs: f64,
     },
+}
+
+fn compared(round_offs: f64) -> String {
+    if round_offs.is_finite() {
+        format!(", {round_offs:.1} times the round-off of its terms")
+    } else {
+        String::new()
+    }
 }

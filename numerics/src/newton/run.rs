@@ -1,20 +1,24 @@
 //! The loop itself.
 
-use super::{Check, Failure, Iteration, KeptFactor, Limit, Problem, Report, ResidualNorm, Settings, Verdict};
+use super::{
+    Bound, Check, Failure, Iteration, KeptFactor, Limit, Problem, Report, ResidualNorm, Settings, Verdict,
+};
 
 /// Runs Newton iterations on `problem` from its current iterate until the bound is met, `limit` is reached
 /// or the callback `after` says stop.
 ///
 /// ```text
 /// evaluate R at the entry
-/// repeat   Before: |R| below its bound? converged
+/// repeat   Before: |R| below its bound, or at round-off? converged
 ///          limit reached? leave
 ///          (dR/ds) ds = -R,  s <- s + ds,  evaluate R
 ///              (with a kept factor where it serves; if |R| rises, back to s, and with the factor there)
 ///          not finite, exploded, standing still? fail
-///          Lagged: |R| before this solve below its bound? converged
+///          Lagged: |R| before this solve below its bound, or at round-off? converged
 ///          callback says stop? leave
 /// ```
+///
+/// A residual [at round-off](Problem::round_offs) counts as converged whatever the bound asks for, and the report says so.
 ///
 /// The entry residual is evaluated in every call, whatever an earlier call left behind. The callback sees
 /// every iteration, the last one included. The residual of the report, and all that the problem assembled
@@ -67,7 +71,11 @@ pub fn solve<P: Problem>(
     let entry = assemble(problem, 0, has_tangent, None)?;
     let mut report = Report::at_entry(entry, has_tangent);
     let mut watch = Watch::new(entry);
-    report.converged = !lagged && bound.met(&entry);
+    let mut level = Level::of(problem, bound, &entry);
+    report.entry_converged = level.is_converged();
+    if level.is_converged() && !lagged {
+        report.converge(level);
+    }
     while !report.converged && !report.stopped_by_callback && report.iterations < most {
         let index = report.iterations + 1;
         let before = report.exit;
@@ -80,11 +88,12 @@ pub fn solve<P: Problem>(
         let solved = if refactors { problem.solve_and_update() } else { problem.solve_with_kept_factor() };
         solved.map_err(|source| Failure::Problem { iteration: index, source })?;
         report.count_solve(refactors);
-        let is_last = index == most || (lagged && bound.met(&before));
+        let is_last = index == most || (lagged && level.is_converged());
         has_tangent = !is_last && needs_tangent(problem, settings);
         let residual = assemble(problem, index, has_tangent, Some((entry, before)));
         report.count_assembly(has_tangent);
-        if is_chord && raises(settings, &before, residual.as_ref().ok()) {
+        let reached = residual.as_ref().map_or(Level::Above, |residual| Level::of(problem, bound, residual));
+        if is_chord && !reached.is_converged() && raises(&before, residual.as_ref().ok()) {
             problem.take_back();
             problem.drop_factor();
             has_tangent = false;
@@ -93,14 +102,19 @@ pub fn solve<P: Problem>(
         let residual = residual?;
         report.iterations = index;
         report.exit = residual;
-        if is_slow(settings, &before, &residual) {
+        if !reached.is_converged() && is_slow(settings, &before, &residual) {
             problem.drop_factor();
         }
-        report.converged = bound.met(if lagged { &before } else { &residual });
+        let judged = if lagged { level } else { reached };
+        level = reached;
+        if judged.is_converged() {
+            report.converge(judged);
+        }
         watch.check_growth(index, residual, settings.divergence_factor)?;
-        report.stagnated = watch.stands_still(residual) && !report.converged && !bound.met(&residual);
+        report.stagnated = watch.stands_still(residual) && !report.converged && !level.is_converged();
         if report.stagnated && limit == Limit::ToConvergence {
-            return Err(Failure::Stagnated { iteration: index, residual, bound });
+            let round_offs = problem.round_offs();
+            return Err(Failure::Stagnated { iteration: index, residual, bound, round_offs });
         }
         let verdict = after(problem, &Iteration { index, before, after: residual });
         report.stopped_by_callback = verdict == Verdict::Stop;
@@ -121,20 +135,49 @@ fn needs_tangent<P: Problem>(problem: &P, settings: &Settings) -> bool {
     }
 }
 
-/// Whether an iteration fell short of the decrease that a reused factor has to bring. What lies below the bound cannot
-/// be asked to fall on.
+/// Whether an iteration fell short of the decrease that a reused factor has to bring.
 fn is_slow(settings: &Settings, before: &ResidualNorm, after: &ResidualNorm) -> bool {
     let Settings { bound, reuse_factor, .. } = settings;
     let falls = |wanted: f64| {
         bound.measure(after) < wanted * bound.measure(before) && after.absolute < wanted * before.absolute
     };
-    reuse_factor.is_some_and(|wanted| !falls(wanted)) && !bound.met(after)
+    reuse_factor.is_some_and(|wanted| !falls(wanted))
 }
 
 /// Whether a step has led away from the solution, or to where there is no residual. (In itself: the scale of a residual
 /// may grow with it.)
-fn raises(settings: &Settings, before: &ResidualNorm, after: Option<&ResidualNorm>) -> bool {
-    after.is_none_or(|after| after.absolute >= before.absolute && !settings.bound.met(after))
+fn raises(before: &ResidualNorm, after: Option<&ResidualNorm>) -> bool {
+    after.is_none_or(|after| after.absolute >= before.absolute)
+}
+
+/// Where the last residual stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Level {
+    Above,
+    /// Above the bound, but not above its round-off.
+    AtRoundOff,
+    BelowBound,
+}
+
+/// Round-off is looked for in relative residuals below this.
+const SMALL: f64 = 1e-2;
+
+impl Level {
+    /// That of `residual`, the last one that `problem` assembled.
+    fn of<P: Problem>(problem: &mut P, bound: Bound, residual: &ResidualNorm) -> Self {
+        if bound.met(residual) {
+            Self::BelowBound
+        } else if residual.relative < SMALL && problem.round_offs() <= 1.0 {
+            Self::AtRoundOff
+        } else {
+            Self::Above
+        }
+    }
+
+    /// What lies below the bound, or at round-off, cannot be asked to fall on.
+    fn is_converged(self) -> bool {
+        self != Self::Above
+    }
 }
 
 /// Assembles and refuses a residual that is not finite.
@@ -158,10 +201,17 @@ impl Report {
             solves: 0,
             entry,
             exit: entry,
+            entry_converged: false,
             converged: false,
+            at_round_off: false,
             stopped_by_callback: false,
             stagnated: false,
         }
+    }
+
+    fn converge(&mut self, level: Level) {
+        self.converged = true;
+        self.at_round_off = level == Level::AtRoundOff;
     }
 
     fn count_assembly(&mut self, with_tangent: bool) {

@@ -337,11 +337,12 @@ fn messages_end_in_a_hint() {
     );
     let residual = ResidualNorm::new(3.0, 12.0);
     let failure: Failure<Broken> =
-        Failure::Stagnated { iteration: 7, residual, bound: Bound::Relative(1e-10) };
+        Failure::Stagnated { iteration: 7, residual, bound: Bound::Relative(1e-10), round_offs: 40.0 };
     assert_eq!(
         failure.to_string(),
-        "Newton iteration 7: the residual stands still at 3.000e0 (relative 2.500e-1); \
+        "Newton iteration 7: the residual stands still at 3.000e0 (relative 2.500e-1), \
+         40.0 times the round-off of its terms; \
          the bound is 1e-10 (relative)\n\
-         hint: this is round-off: the bound asks for more than the arithmetic can give"
+         hint: the tangent may be nearly singular, or the bound may ask for more than the arithmetic can give"
     );
 }

@@ -15,6 +15,7 @@ mod patch_test;
 mod refusals;
 mod restart;
 mod rigid;
+mod round_off;
 mod supports;
 mod tangent;
 mod turek_hron;

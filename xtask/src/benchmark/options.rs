@@ -1,4 +1,4 @@
-//! `cargo xtask benchmark [CASE...] [--level L] [--mode write|check] [--animate]`.
+//! `cargo xtask benchmark [CASE...] [--level L] [--mode check|write|page] [--animate]`.
 
 use super::case::Case;
 
@@ -22,6 +22,8 @@ pub(super) enum Mode {
     Check,
     /// They take their place there, and page and pictures are drawn anew.
     Write,
+    /// Nothing is run; page and pictures are drawn anew from that file.
+    Page,
 }
 
 impl Options {
@@ -45,7 +47,8 @@ impl Options {
                     options.mode = match words.next().unwrap_or_default() {
                         "check" => Mode::Check,
                         "write" => Mode::Write,
-                        other => return Err(format!("--mode is `check` or `write`, not `{other}`")),
+                        "page" => Mode::Page,
+                        other => return Err(format!("--mode is `check`, `write` or `page`, not `{other}`")),
                     };
                 }
                 "--animate" => options.animate = true,

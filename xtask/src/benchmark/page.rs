@@ -12,8 +12,8 @@ const HEAD: &str = "\
 
 Published numbers beside ours, level by level: every case is a scene with meshes (and time steps) that are refined
 regularly, so that the trend tells what the last digits are worth. All rows, with unknowns, steps and times, are in
-[data/benchmarks.csv](data/benchmarks.csv). Errors are relative to the reference; in the pictures the dashed line is the
-target. A run is repeated with `cargo xtask benchmark CASE`.
+[data/benchmarks.csv](data/benchmarks.csv). Errors are relative to the reference; in the pictures of errors the
+dashed lines are the targets, in those of signals the band is the mean of the reference with its amplitude. A run is repeated with `cargo xtask benchmark CASE`.
 
 ";
 
@@ -165,6 +165,7 @@ mod tests {
                 take: Take::Last,
                 scale: 1.0,
                 reference: -66.1,
+                around: None,
                 target_percent: 1.0,
             }],
             until: None,

@@ -354,6 +354,7 @@ mod tests {
                 take,
                 scale: 1000.0,
                 reference: 1.0,
+                around: None,
                 target_percent: 1.0,
             };
             probes.take(&quantity, None)

@@ -3,21 +3,14 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use plotters::coord::Shift;
-use plotters::prelude::*;
+use partita_charts::plot::{Panel, Plot};
 
-use super::case::Case;
+use super::case::{Case, Take};
 use super::row::six_digits;
 use super::signal::last_samples;
 
 /// Periods that are kept and drawn.
 const PERIODS: usize = 2;
-/// Width of the picture and height of a signal's part of it, in points.
-const SIZE: (u32, u32) = (640, 170);
-/// Colours that colour-blind readers tell apart (Okabe and Ito 2008), one a level.
-const COLOURS: [RGBColor; 4] =
-    [RGBColor(86, 180, 233), RGBColor(0, 158, 115), RGBColor(213, 94, 0), RGBColor(0, 0, 0)];
-
 /// Samples by column; `time` is that since the beginning of the last period \[s\].
 pub(super) type Samples = BTreeMap<String, Vec<f64>>;
 
@@ -57,24 +50,45 @@ pub(super) fn to_csv(samples: &Samples) -> String {
     text
 }
 
-/// A picture of the signals of the levels that there are, one below the other; `levels` are numbers and samples.
+/// A picture of the signals of the levels that there are, one below the other, over the means and amplitudes of the
+/// reference; `levels` are numbers and samples.
 pub(super) fn picture(case: &Case, levels: &[(usize, Samples)]) -> Option<String> {
-    let columns = columns(case);
-    if levels.is_empty() {
-        return None;
-    }
-    let mut picture = String::new();
-    {
-        let height = SIZE.1 * u32::try_from(columns.len()).ok()?;
-        let area = SVGBackend::with_string(&mut picture, (SIZE.0, height)).into_drawing_area();
-        area.fill(&WHITE).expect("a String takes any picture");
-        for (part, column) in area.split_evenly((columns.len(), 1)).iter().zip(&columns) {
-            signal(part, column, &label(case, column), scale(case, column), levels)
-                .expect("a String takes any picture");
+    let panel = |column: &str| {
+        let factor = scale(case, column);
+        let curve = |(_, samples): &(usize, Samples)| {
+            samples["time"].iter().zip(&samples[column]).map(|(t, value)| [*t, factor * value]).collect()
+        };
+        let [mean, amplitude] = [Take::Mean, Take::Amplitude].map(|take| reference(case, column, take));
+        let mean = mean.or_else(|| middle(case, column));
+        Panel {
+            up: label(case, column),
+            curves: levels.iter().map(curve).collect(),
+            rules: mean.map(|mean| (mean, String::new())).into_iter().collect(),
+            band: mean.zip(amplitude).map(|(mean, amplitude)| [mean - amplitude, mean + amplitude]),
         }
-        area.present().expect("a String takes any picture");
+    };
+    Plot {
+        title: format!("{}: {}", case.name, case.title),
+        across: "time since the last period began [s]".to_owned(),
+        is_logarithmic: false,
+        has_marks: false,
+        series: levels.iter().map(|(level, _)| format!("level {level}")).collect(),
+        panels: columns(case).into_iter().map(panel).collect(),
+        rules: Some("mean of the reference".to_owned()),
+        bands: Some("its mean and amplitude".to_owned()),
     }
-    Some(picture)
+    .draw()
+}
+
+/// A number of the literature about a column, in the unit of the tables.
+fn reference(case: &Case, column: &str, take: Take) -> Option<f64> {
+    let found = case.quantities.iter().find(|quantity| quantity.column == column && quantity.take == take);
+    found.map(|quantity| quantity.reference)
+}
+
+/// A mean of the literature that is drawn, but too near to zero to be compared.
+fn middle(case: &Case, column: &str) -> Option<f64> {
+    case.quantities.iter().filter(|quantity| quantity.column == column).find_map(|quantity| quantity.around)
 }
 
 /// Factor to the unit in which a column is compared.
@@ -91,51 +105,6 @@ fn label(case: &Case, column: &str) -> String {
         .find(|quantity| quantity.column == column && !quantity.name.contains("[1/s]"))
         .map_or(column, |quantity| &quantity.name);
     name.replace(" mean", "").replace(" amplitude", "")
-}
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-
-fn signal(
-    area: &Area<'_>,
-    column: &str,
-    label: &str,
-    scale: f64,
-    levels: &[(usize, Samples)],
-) -> Result<(), Box<dyn std::error::Error>> {
-    let all = |name: &str, factor: f64| {
-        let values = levels.iter().flat_map(|(_, samples)| samples[name].iter().copied());
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(factor * value), high.max(factor * value))
-        });
-        let margin = 0.05 * (high - low).max(f64::MIN_POSITIVE);
-        low - margin..high + margin
-    };
-    let mut chart = ChartBuilder::on(area)
-        .margin(8)
-        .x_label_area_size(30)
-        .y_label_area_size(60)
-        .build_cartesian_2d(all("time", 1.0), all(column, scale))?;
-    chart
-        .configure_mesh()
-        .light_line_style(WHITE)
-        .x_labels(9)
-        .y_labels(5)
-        .x_desc("s")
-        .y_desc(label)
-        .draw()?;
-    for ((level, samples), colour) in levels.iter().zip(COLOURS.into_iter().cycle()) {
-        let points = samples["time"].iter().zip(&samples[column]).map(|(t, value)| (*t, scale * value));
-        chart
-            .draw_series(LineSeries::new(points, colour.stroke_width(2)))?
-            .label(format!("level {level}"))
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour.stroke_width(2)));
-    }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .background_style(WHITE.mix(0.8))
-        .draw()?;
-    Ok(())
 }
 
 /// The samples of a table, or the line that is none of it.
@@ -160,6 +129,7 @@ mod tests {
     use super::super::case;
     use super::*;
     use crate::task::workspace_root;
+    use partita_charts::legible::faults;
 
     fn swinging() -> (Case, Samples) {
         let cases = case::all(workspace_root()).expect("the shipped cases");
@@ -183,11 +153,23 @@ mod tests {
     }
 
     #[test]
+    fn every_signal_that_is_compared_has_the_band_of_its_reference() {
+        for case in case::all(workspace_root()).expect("the shipped cases") {
+            for column in columns(&case).into_iter().filter(|_| case.until.is_some()) {
+                let mean = reference(&case, column, Take::Mean).or_else(|| middle(&case, column));
+                assert!(mean.is_some(), "{}: {column} has no mean to draw", case.name);
+                assert!(reference(&case, column, Take::Amplitude).is_some(), "{}: {column}", case.name);
+            }
+        }
+    }
+
+    #[test]
     fn the_picture_shows_every_signal_of_every_level() {
         let (case, probes) = swinging();
         let samples = last(&case, &probes).expect("periods");
         let drawn = picture(&case, &[(1, samples.clone()), (2, samples)]).expect("two levels");
-        for needed in ["<svg", "drag [N/m]", "lift [N/m]", "level 2"] {
+        assert_eq!(faults(&drawn), Vec::<String>::new());
+        for needed in ["<svg", "drag [N/m]", "lift [N/m]", "level 2", "mean of the reference", "amplitude"] {
             assert!(drawn.contains(needed), "{needed} is not in the picture");
         }
         assert_eq!(picture(&case, &[]), None);

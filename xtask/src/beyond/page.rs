@@ -41,7 +41,7 @@ fn files(root: &Path) -> Result<Vec<(String, String)>, TaskError> {
         let Some(scene) = variants.iter().find(|variant| variant.case == case) else { continue };
         text += &section(scene);
         for count in [Count::Coupling, Count::Newton] {
-            let title = format!("{}: {}", case.scene(), count.title().to_lowercase());
+            let title = format!("{}: {}", case.scene(), count.title());
             let panels = [
                 ("linear convergence", &scene.facts[0].grid),
                 ("quadratic convergence", &scene.facts[1].grid),

@@ -1,12 +1,19 @@
 //! Mesh, field and structure in one drawing.
 
 use super::vtu::Piece;
-use partita_charts::svg::{Anchor, Colour, Svg};
+use partita_charts::axis::{LinearAxis, rounded};
+use partita_charts::svg::{Anchor, Colour, Dash, Svg};
+use partita_charts::text;
 
 /// Longer side of what is drawn, in pixels.
 const EXTENT: f64 = 620.0;
-const MARGIN: f64 = 24.0;
-const HEAD: f64 = 34.0;
+/// Left of it and below it stand axes.
+const LEFT: f64 = 64.0;
+const FOOT: f64 = 48.0;
+const HEAD: f64 = 40.0;
+/// The bar of colours with its labels.
+const BAR: f64 = 110.0;
+const SMALL: f64 = 11.0;
 /// Each triangle is coloured in so many parts a side, for the field is linear in it.
 const PARTS: usize = 1;
 
@@ -26,6 +33,13 @@ impl Scale {
         Self { label: format!("{name} [{unit}]"), values, low, high }
     }
 
+    /// The value at a part of the range, to three digits of it.
+    fn number(&self, part: f64) -> String {
+        let value = self.low + part * (self.high - self.low);
+        let negligible = value.abs() < 1e-3 * (self.high - self.low);
+        rounded(if negligible { 0.0 } else { value }, 3)
+    }
+
     fn colour(&self, value: f64) -> Colour {
         let span = self.high - self.low;
         Colour::on_scale(if span > 0.0 { (value - self.low) / span } else { 0.0 })
@@ -41,7 +55,7 @@ struct View {
 
 impl View {
     fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [MARGIN + (x - self.left) * self.pixels, HEAD + (self.top - y) * self.pixels]
+        [LEFT + (x - self.left) * self.pixels, HEAD + (self.top - y) * self.pixels]
     }
 }
 
@@ -53,8 +67,9 @@ pub(super) fn deformed(title: &str, fluid: &Piece, structure: &Piece, scale: &Sc
     let (width, height) = (most(0) - least(0), most(1) - least(1));
     let view = View { left: least(0), top: most(1), pixels: EXTENT / width.max(height) };
     let (width, height) = (width * view.pixels, height * view.pixels);
-    let mut svg = Svg::new(width + 2.0 * MARGIN + 90.0, height + HEAD + MARGIN, title);
-    svg.text([MARGIN, 20.0], 14.0, Anchor::Start, Colour::BLACK, title);
+    let sheet = (LEFT + width + BAR).max(LEFT + text::width(title, 14.0) + 12.0);
+    let mut svg = Svg::new(sheet, HEAD + height + FOOT, title);
+    svg.text([LEFT, 22.0], 14.0, Anchor::Start, Colour::BLACK, title);
     for cell in &fluid.cells {
         triangle(&mut svg, &view, cell, fluid, scale);
     }
@@ -63,15 +78,35 @@ pub(super) fn deformed(title: &str, fluid: &Piece, structure: &Piece, scale: &Sc
             cell.iter().map(|&corner| view.place(structure.points[corner])).collect();
         svg.polygon(&corners, Colour::STEEL);
     }
-    let bar = MARGIN + width + 14.0;
-    svg.text([bar, HEAD + 10.0], 11.0, Anchor::Start, Colour::BLACK, &scale.label);
-    let (low, high) = (rounded(scale.low), rounded(scale.high));
-    svg.colour_bar([bar, HEAD + 20.0], [14.0, 160.0], &low, &high);
+    let low = [view.left, view.top - height / view.pixels];
+    axes(&mut svg, low, [view.left + width / view.pixels, view.top], [width, height]);
+    let bar = LEFT + width + 16.0;
+    svg.text([bar, HEAD + 10.0], SMALL, Anchor::Start, Colour::BLACK, &scale.label);
+    let labels = [0.0, 0.5, 1.0].map(|part| (part, scale.number(part)));
+    svg.colour_bar([bar, HEAD + 24.0], [14.0, 160.0], &labels);
     svg.finish()
 }
 
-fn rounded(value: f64) -> String {
-    if value.abs() >= 100.0 { format!("{value:.0}") } else { format!("{value:.2}") }
+/// Axes in metres, left and below, a little off the drawing.
+fn axes(svg: &mut Svg, low: [f64; 2], high: [f64; 2], [width, height]: [f64; 2]) {
+    const OFF: f64 = 6.0;
+    let (left, bottom) = (LEFT - OFF, HEAD + height + OFF);
+    let across = LinearAxis::over(low[0], high[0], [LEFT, LEFT + width]);
+    svg.path(&[[LEFT, bottom], [LEFT + width, bottom]], Colour::GREY, 1.0, Dash::None);
+    for tick in across.ticks(8) {
+        let x = across.place(tick.value);
+        svg.path(&[[x, bottom], [x, bottom + 4.0]], Colour::GREY, 1.0, Dash::None);
+        svg.tick([x, bottom + 16.0], SMALL, Anchor::Middle, "x [m]", &tick.label);
+    }
+    svg.text([LEFT + 0.5 * width, bottom + 33.0], SMALL, Anchor::Middle, Colour::BLACK, "x [m]");
+    let up = LinearAxis::over(low[1], high[1], [HEAD + height, HEAD]);
+    svg.path(&[[left, HEAD], [left, HEAD + height]], Colour::GREY, 1.0, Dash::None);
+    for tick in up.ticks(8) {
+        let y = up.place(tick.value);
+        svg.path(&[[left - 4.0, y], [left, y]], Colour::GREY, 1.0, Dash::None);
+        svg.tick([left - 7.0, y + 4.0], SMALL, Anchor::End, "y [m]", &tick.label);
+    }
+    svg.text_upwards([16.0, HEAD + 0.5 * height], SMALL, Colour::BLACK, "y [m]");
 }
 
 /// The colours of a triangle, then its edges.
@@ -105,6 +140,7 @@ fn triangle(svg: &mut Svg, view: &View, cell: &[usize], fluid: &Piece, scale: &S
 mod tests {
     use super::*;
     use crate::picture::vtu::tests::square;
+    use partita_charts::legible::faults;
 
     #[test]
     fn every_triangle_is_coloured_and_outlined_within_the_sheet() {
@@ -112,11 +148,14 @@ mod tests {
         let scale = Scale::new("pressure", "Pa", vec![0.0, 1.0, 1.0, 0.0]);
         let text = deformed("square", &piece, &piece, &scale);
         let count = |needle: &str| text.matches(needle).count();
-        assert_eq!(count("fill=\"none\""), 2, "an outline a triangle");
+        assert_eq!(faults(&text), Vec::<String>::new());
+        let outlines =
+            text.lines().filter(|line| line.starts_with("<polygon") && line.contains("fill=\"none\""));
+        assert_eq!(outlines.count(), 2, "an outline for each triangle");
         let coloured = 2 * PARTS * PARTS;
         assert_eq!(count("<polygon"), coloured + 2 + piece.cells.len());
         // The corner at the origin lies below left.
-        assert!(text.contains(&format!("{:.1},{:.1}", MARGIN, HEAD + EXTENT)), "{text}");
+        assert!(text.contains(&format!("{:.1},{:.1}", LEFT, HEAD + EXTENT)), "{text}");
     }
 
     #[test]

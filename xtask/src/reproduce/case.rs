@@ -50,7 +50,7 @@ impl Case {
         product(&[1, 2, 3, 4, 5], structure)
     }
 
-    /// The scene's key of the solid's density and the two densities the scenes have \[kg/m3\], fluid first.
+    /// The fluid's density in the scene \[kg/m3\].
     pub(crate) fn fluid_density(self) -> f64 {
         match self {
             Self::Tank => 1000.0,

@@ -2,6 +2,7 @@
 
 use super::counts::{Count, Grid};
 use partita_charts::svg::{Anchor, Colour, Svg};
+use partita_charts::text;
 
 const CELL: [f64; 2] = [52.0, 34.0];
 const LEFT: f64 = 50.0;
@@ -15,14 +16,20 @@ pub(crate) fn side_by_side(title: &str, panels: [(&str, &Grid); 2], count: Count
     let panel_width = columns as f64 * CELL[0];
     let height = TOP + rows as f64 * CELL[1] + 34.0;
     let bar = LEFT + 2.0 * panel_width + GAP + 20.0;
-    let mut svg = Svg::new(bar + 70.0, height, title);
+    let mut svg = Svg::new((bar + 70.0).max(LEFT + text::width(title, 14.0) + 12.0), height, title);
     svg.text([LEFT, 18.0], 14.0, Anchor::Start, Colour::BLACK, title);
     for (index, (heading, grid)) in panels.into_iter().enumerate() {
         let x = LEFT + index as f64 * (panel_width + GAP);
         panel(&mut svg, [x, TOP], heading, grid, count, range);
     }
+    let foot = [LEFT, TOP + rows as f64 * CELL[1] + 18.0];
+    svg.text(foot, 11.0, Anchor::Start, Colour::GREY, "rows: N^f, columns: N^s");
     let (low, high) = range;
-    svg.colour_bar([bar, TOP], [14.0, rows as f64 * CELL[1]], &low.to_string(), &high.to_string());
+    let labels = [0.0, 0.5, 1.0].map(|part| {
+        let value = low as f64 + part * (high - low) as f64;
+        (part, format!("{value:.0}"))
+    });
+    svg.colour_bar([bar, TOP], [14.0, rows as f64 * CELL[1]], &labels);
     svg.finish()
 }
 
@@ -46,13 +53,6 @@ fn panel(
         let centre = x + (column as f64 + 0.5) * CELL[0];
         svg.text([centre, y - 6.0], 11.0, Anchor::Middle, Colour::GREY, &limit.to_string());
     }
-    svg.text(
-        [x, y + rows.len() as f64 * CELL[1] + 18.0],
-        11.0,
-        Anchor::Start,
-        Colour::GREY,
-        "rows: N^f, columns: N^s",
-    );
     for (row, &fluid) in rows.iter().enumerate() {
         let top = y + row as f64 * CELL[1];
         svg.text([x - 14.0, top + 21.0], 11.0, Anchor::Middle, Colour::GREY, &fluid.to_string());
@@ -63,8 +63,8 @@ fn panel(
                 Colour::on_scale((value - low) as f64 / (high - low).max(1) as f64)
             });
             svg.rectangle([left, top], CELL, colour);
-            let text = value.map_or_else(|| "-".to_owned(), |value| value.to_string());
-            svg.text([left + CELL[0] / 2.0, top + 21.0], 11.0, Anchor::Middle, colour.ink(), &text);
+            let number = value.map_or_else(|| "-".to_owned(), |value| value.to_string());
+            svg.text([left + CELL[0] / 2.0, top + 21.0], 11.0, Anchor::Middle, colour.ink(), &number);
         }
     }
 }
@@ -74,6 +74,7 @@ mod tests {
     use super::*;
     use crate::reproduce::counts::Counts;
     use crate::reproduce::setting::Limits;
+    use partita_charts::legible::faults;
 
     #[test]
     fn both_panels_share_one_scale_and_every_cell_is_written() {
@@ -86,6 +87,7 @@ mod tests {
                 .collect()
         };
         let text = side_by_side("t", [("published", &grid(100)), ("ours", &grid(150))], Count::Coupling);
+        assert_eq!(faults(&text), Vec::<String>::new());
         for value in [">100<", ">150<", ">200<"] {
             assert!(text.contains(value), "{value}");
         }

@@ -57,7 +57,7 @@ impl Page {
         let mut files = vec![(FILE.to_owned(), self.text())];
         for (facts, published) in self.ours.iter().zip(&self.published.facts) {
             for count in [Count::Coupling, Count::Newton] {
-                let title = format!("{}: {}", facts.case.scene(), count.title().to_lowercase());
+                let title = format!("{}: {}", facts.case.scene(), count.title());
                 let panels = [("published", &published.grid), ("ours", &facts.grid)];
                 let path = format!("docs/{}", heat_map_path(facts.case, count));
                 files.push((path, heat_map::side_by_side(&title, panels, count)));
@@ -137,6 +137,7 @@ mod tests {
         let page = perfect();
         let files = page.files();
         let text = &files[0].1;
+        assert!(files.len() > 1, "the page has figures");
         for (path, _) in &files[1..] {
             let link = path.strip_prefix("docs/").expect("figures stand beside the page");
             assert!(text.contains(&format!("({link})")), "{link}");

@@ -44,7 +44,7 @@ pub(crate) fn run(root: &Path, workshop: &Workshop<'_>, mode: Mode) -> Result<()
     let path = results::folder(root).join("quick.csv");
     match mode {
         Mode::Write => task::write(&path, &table.to_text()),
-        Mode::Print => Ok(()),
+        Mode::Print | Mode::Page => Ok(()),
         Mode::Check => {
             let found = differences(&Csv::read(&path)?, &table)?;
             if found.is_empty() {

@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 use super::case::Case;
 use super::counts::Counts;
 use super::setting::Setting;
-use crate::csv::Csv;
 use crate::task::{self, TaskError, shown};
 
 /// Exit code of the program where a step could not be solved.
@@ -128,16 +127,34 @@ pub(crate) fn read_outcome(folder: &Path, failure: Option<String>) -> Result<Out
     let path = folder.join("summary.json");
     let summary: Summary = serde_json::from_str(&task::read(&path)?)
         .map_err(|error| TaskError::Failed(format!("{}: {error}", path.display())))?;
-    let calls = Csv::read(&folder.join("iterations.csv"))?;
-    let longest = |column| -> Result<usize, TaskError> {
-        calls.rows().try_fold(0, |longest, row| Ok(longest.max(row.value(column)?)))
-    };
-    Ok(Outcome {
-        summary,
-        longest_fluid_call: longest("fluid_newton")?,
-        longest_structure_call: longest("structure_newton")?,
-        failure,
-    })
+    let path = folder.join("run.jsonl");
+    let [longest_fluid_call, longest_structure_call] = longest_calls(&task::read(&path)?)
+        .map_err(|error| TaskError::Failed(format!("{}: {error}", path.display())))?;
+    Ok(Outcome { summary, longest_fluid_call, longest_structure_call, failure })
+}
+
+/// Most Newton iterations of a call of the fluid and of one of the structure, from the records of a run.
+fn longest_calls(records: &str) -> Result<[usize; 2], serde_json::Error> {
+    #[derive(Deserialize)]
+    struct Line {
+        iteration: Option<Iteration>,
+    }
+    #[derive(Deserialize)]
+    struct Iteration {
+        fields: [Call; 2],
+    }
+    #[derive(Deserialize)]
+    struct Call {
+        newton: usize,
+    }
+    let mut longest = [0; 2];
+    for line in records.lines() {
+        let Line { iteration: Some(iteration) } = serde_json::from_str(line)? else { continue };
+        for (longest, call) in longest.iter_mut().zip(iteration.fields) {
+            *longest = call.newton.max(*longest);
+        }
+    }
+    Ok(longest)
 }
 
 #[cfg(test)]
@@ -155,6 +172,19 @@ mod tests {
              --set coupling.newton.fixed.fluid=1 --set coupling.newton.fixed.structure=unlimited \
              --set fluid.viscosity=2 --steps 5"
         );
+    }
+
+    #[test]
+    fn the_longest_calls_are_those_of_the_records() {
+        let call = |newton: usize| format!(r#"{{"name":"x","newton":{newton},"changes":[]}}"#);
+        let iteration = |fluid, structure| {
+            format!(r#"{{"iteration":{{"step":1,"fields":[{},{}]}}}}"#, call(fluid), call(structure))
+        };
+        let step = r#"{"step":{"step":1,"fields":[{"newton":30},{"newton":40}]}}"#;
+        let records = [iteration(3, 1), iteration(2, 4), step.to_owned()].join("\n");
+        assert_eq!(longest_calls(&records).expect("records"), [3, 4]);
+        assert_eq!(longest_calls("").expect("none"), [0, 0]);
+        assert!(longest_calls("{\"iteration\":{\"st").is_err());
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use partita_charts::map::{self, MapAxis, MapCell, MapPanel};
 use serde::Deserialize;
 
 use crate::csv::Csv;
@@ -113,6 +114,29 @@ impl Table {
             })
         };
         Ok(Self { cells: table.rows().map(cell).collect::<Result<_, _>>()? })
+    }
+
+    /// The picture of this table of a map.
+    pub(super) fn picture(&self, map: &Map) -> String {
+        let first = || map.choices.iter().take(1).flat_map(|choice| self.of(&choice.name));
+        let columns = map.axes[1].values.len();
+        let across: Vec<String> = first().take(columns).map(|cell| cell.values[1].clone()).collect();
+        let down: Vec<String> = first().step_by(columns).map(|cell| cell.values[0].clone()).collect();
+        let axis = |axis: &Axis, values| MapAxis { label: axis.label().to_owned(), values };
+        let cell = |cell: &Cell| match cell.mean_iterations {
+            Some(mean) if cell.converged() => MapCell::Converged(mean),
+            _ => MapCell::Other(cell.outcome.clone()),
+        };
+        let panel = |choice: &Choice| MapPanel {
+            name: choice.name.clone(),
+            cells: self.of(&choice.name).map(cell).collect(),
+        };
+        map::Map {
+            title: map.title.clone(),
+            axes: [axis(&map.axes[0], down), axis(&map.axes[1], across)],
+            panels: map.choices.iter().map(panel).collect(),
+        }
+        .draw()
     }
 
     /// The cells of a choice.

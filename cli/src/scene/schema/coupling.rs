@@ -35,7 +35,7 @@ pub struct Coupling {
     /// When a step is done. Default: `{ changes = 1e-5 }`.
     #[serde(default)]
     pub convergence: Convergence,
-    /// How many Newton iterations a solver call may take. Default: to convergence, both fields.
+    /// How many Newton iterations a solver call may take. Default: `fixed`, both fields to convergence.
     #[serde(default)]
     pub newton: NewtonPolicy,
 }
@@ -171,12 +171,13 @@ impl Default for Filter {
 pub enum Convergence {
     /// Every field's relative change in one coupling iteration is below this, and every residual below its bound.
     Changes(Positive),
-    /// The same, and the interface residual too, relative to the displacement: a small relaxation changes little.
+    /// The same, and so is the interface residual relative to the interface displacement: a small relaxation changes little.
     ChangesAndResidual(Positive),
     /// Every field enters its call with a residual below its bound (Spenke, Delaisse, Degroote, Hosters 2023).
     EntryResiduals,
-    /// The change of the interface displacement in one coupling iteration is below this bound \[m\], and every
-    /// residual below its own.
+    /// The interface residual, the change of the interface displacement in one coupling iteration, is below this bound:
+    /// `absolute` in \[m\], Euclidean norm over the control points; `relative` to the norm of the interface displacement
+    /// itself. And every field's residual is below its own bound.
     InterfaceResidual(Tolerance),
 }
 

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use partita_fluid::stabilization::INVERSE_CONSTANT;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -38,7 +39,8 @@ pub struct Fluid {
     /// Factor of the stabilization of continuity (grad-div), which damps coarse meshes under small steps. Default: 1.
     #[serde(default = "grad_div")]
     pub grad_div: NonNegative,
-    /// Holds the pressure of one node where no boundary does. Default: none.
+    /// Holds the pressure of one node where no boundary does. The fluid is then enclosed: walls may move, and fluid may be
+    /// driven in and out, as long as the net flux through the whole boundary stays zero to round-off. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressure_pin: Option<PressurePin>,
     /// Where the fluid is.
@@ -69,7 +71,7 @@ const fn on() -> bool {
 }
 
 fn inverse_constant() -> Positive {
-    Positive::new(36.0).expect("36 is positive")
+    Positive::new(INVERSE_CONSTANT).expect("it is positive")
 }
 
 fn grad_div() -> NonNegative {
@@ -204,7 +206,8 @@ pub enum Condition {
     Interface,
     /// Given velocity \[m/s\] in `x`, `y`, `t`.
     Velocity(VectorFormula),
-    /// A wall that moves with this displacement \[m\] in `x`, `y`, `t`, the fluid sticking to it.
+    /// A wall that moves with this displacement \[m\] in `x`, `y`, `t`, the fluid sticking to it. In an enclosed fluid it must
+    /// keep the area, as one that shifts or turns does.
     WallMotion(VectorFormula),
     /// Given traction \[Pa\] in `x`, `y`, `t`.
     Traction(VectorFormula),

@@ -36,9 +36,10 @@ impl Default for Newton {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Tolerance {
-    /// Part of the natural scale: for a residual the largest term of its equations.
+    /// Part of the natural scale: for a field's residual the largest term of its equations, for the interface residual the
+    /// interface displacement.
     Relative(Positive),
-    /// In the unit of what is measured: for a residual of forces N, in two dimensions N/m.
+    /// In the unit of what is measured: for a residual of forces N, in two dimensions N/m; for the interface residual m.
     Absolute(Positive),
 }
 

@@ -109,6 +109,7 @@ ranged!(
 /// How often a step may be halved: 1 to [`StepSizes::MOST`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "i64", into = "u32")]
+#[schemars(description = format!("How often a step may be halved: 1 to {}.", StepSizes::MOST))]
 pub struct Halvings(u32);
 
 impl Halvings {

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use partita_numerics::time::GeneralizedAlpha;
+use partita_structure::TimeScheme;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -35,7 +37,7 @@ pub struct Structure {
     pub geometry: Geometry,
     /// What it is made of.
     pub material: Material,
-    /// How it moves in time. Default: `generalized_alpha` with spectral radius 1.
+    /// How it moves in time. Default: `{ generalized_alpha = { spectral_radius = 0.5 } }`.
     #[serde(default)]
     pub time_scheme: StructureTimeScheme,
     /// Rayleigh damping. Default: none.
@@ -142,16 +144,18 @@ pub enum Plane {
 pub enum StructureTimeScheme {
     /// Chung and Hulbert 1993.
     GeneralizedAlpha {
-        /// Spectral radius at infinite frequency: 1 keeps the energy, 0 damps most. Default: 1.
+        /// Spectral radius at infinite frequency: 1 keeps the energy, and the interface force oscillates from step to step; 0
+        /// damps most. Default: 0.5.
         #[serde(default = "spectral_radius")]
         spectral_radius: SpectralRadius,
     },
-    /// Newmark 1959.
+    /// Newmark 1959; forces are balanced at the end of the step.
     Newmark {
-        /// Weight of the new acceleration in the displacement: above 0, up to 0.5. Default: 0.25.
+        /// Weight of the new acceleration in the displacement: at least `gamma`/2. Default: 0.25.
         #[serde(default = "newmark_beta")]
         beta: Positive,
-        /// Weight of the new acceleration in the velocity: 0.5 is of second order, more damps. Default: 0.5.
+        /// Weight of the new acceleration in the velocity: at least 0.5, which is of second order; more damps, and is of
+        /// first order. Default: 0.5.
         #[serde(default = "newmark_gamma")]
         gamma: Positive,
     },
@@ -160,15 +164,15 @@ pub enum StructureTimeScheme {
 }
 
 fn spectral_radius() -> SpectralRadius {
-    SpectralRadius::new(1.0).expect("1 is a spectral radius")
+    SpectralRadius::new(TimeScheme::DEFAULT_SPECTRAL_RADIUS).expect("it is a spectral radius")
 }
 
 fn newmark_beta() -> Positive {
-    Positive::new(0.25).expect("0.25 is positive")
+    Positive::new(GeneralizedAlpha::AVERAGE_ACCELERATION.beta).expect("it is positive")
 }
 
 fn newmark_gamma() -> Positive {
-    Positive::new(0.5).expect("0.5 is positive")
+    Positive::new(GeneralizedAlpha::AVERAGE_ACCELERATION.gamma).expect("it is positive")
 }
 
 impl Default for StructureTimeScheme {
@@ -191,9 +195,11 @@ pub struct LineSearch {
 
 impl Default for LineSearch {
     fn default() -> Self {
+        let partita_structure::LineSearch { tolerance, max_evaluations } =
+            partita_structure::LineSearch::default();
         Self {
-            tolerance: Fraction::new(0.8).expect("0.8 is a fraction"),
-            max_evaluations: Count::literal(10),
+            tolerance: Fraction::new(tolerance).expect("it is a fraction"),
+            max_evaluations: Count::literal(max_evaluations),
         }
     }
 }

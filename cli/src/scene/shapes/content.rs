@@ -64,8 +64,8 @@ impl Content {
     }
 
     /// Marks the curves that bound the mesh.
-    pub(super) fn bounds<'a>(&mut self, names: impl Iterator<Item = &'a str> + Clone) {
-        self.curves(|curve| names.clone().any(|name| name == curve.name).then_some(Role::Used));
+    pub(super) fn bounds(&mut self, names: &[&str]) {
+        self.curves(|curve| names.contains(&&*curve.name).then_some(Role::Used));
     }
 
     fn curves(&mut self, new_role: impl Fn(&PhysicalGroup) -> Option<Role>) {

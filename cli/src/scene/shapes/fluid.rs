@@ -37,14 +37,20 @@ fn rectangle(mesh: &RectangleMesh) -> Result<Mesh<2>, Finding> {
         origin: mesh.origin.map(Real::get),
         size: mesh.size.map(Positive::get),
         divisions: mesh.divisions.map(Count::get),
-        pattern: match mesh.diagonals {
-            Diagonals::Crossed => Diagonal::Crossed,
-            Diagonals::Right => Diagonal::Right,
-            Diagonals::Left => Diagonal::Left,
-            Diagonals::Alternating => Diagonal::Alternating,
-        },
+        pattern: mesh.diagonals.into(),
     });
     made.map_err(|error| Finding::of(&error))
+}
+
+impl From<Diagonals> for Diagonal {
+    fn from(diagonals: Diagonals) -> Self {
+        match diagonals {
+            Diagonals::Crossed => Self::Crossed,
+            Diagonals::Right => Self::Right,
+            Diagonals::Left => Self::Left,
+            Diagonals::Alternating => Self::Alternating,
+        }
+    }
 }
 
 fn from_file(
@@ -60,7 +66,7 @@ fn from_file(
     content.turned = part.is_inverted(2);
     content.touching(&part);
     let mut made = part.into_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
-    content.bounds(made.groups().iter().map(|group| &*group.name));
+    content.bounds(&made.groups().iter().map(|group| &*group.name).collect::<Vec<_>>());
     shapes.fluid_file = Some(content);
     if mesh.refine > MOST_REFINEMENTS {
         return Err(Finding::new(format!(

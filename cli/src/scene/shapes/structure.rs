@@ -58,7 +58,7 @@ fn solid(
     content.turned = part.is_inverted(2);
     content.touching(&part);
     let made = part.into_solid_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
-    content.bounds(made.groups().iter().map(|group| &*group.name));
+    content.bounds(&made.groups().iter().map(|group| &*group.name).collect::<Vec<_>>());
     shapes.structure_file = Some(content);
     shapes.inputs.push(Input { name: SOLID_FILE, bytes });
     Ok(Space::Lagrange(made))
@@ -113,14 +113,19 @@ fn strip(patch: &CurvePatch) -> Result<Spline<2>, Finding> {
     let along = if distinct > degree[0] + 1 { degree[0] + 1 } else { degree[0] };
     let fitted = if closed { fit::closed(&points, along) } else { fit::through(&points, along) };
     let (curve, _) = fitted.map_err(|error| Finding::of(&error))?;
-    let alignment = match patch.alignment {
-        Alignment::Bottom => build::Alignment::Bottom,
-        Alignment::Middle => build::Alignment::Middle,
-        Alignment::Top => build::Alignment::Top,
-    };
     let elements = patch.elements.map(Count::get);
-    build::strip(&curve, patch.thickness.get(), alignment, degree, elements)
+    build::strip(&curve, patch.thickness.get(), patch.alignment.into(), degree, elements)
         .map_err(|error| Finding::of(&error))
+}
+
+impl From<Alignment> for build::Alignment {
+    fn from(alignment: Alignment) -> Self {
+        match alignment {
+            Alignment::Bottom => Self::Bottom,
+            Alignment::Middle => Self::Middle,
+            Alignment::Top => Self::Top,
+        }
+    }
 }
 
 fn from_file(spline: &SplineFile, folder: &Path, inputs: &mut Vec<Input>) -> Result<Spline<2>, Finding> {

@@ -97,15 +97,13 @@ fn needless_pin(check: &mut Check<'_>, fluid: &Fluid) {
 }
 
 /// An incompressible fluid needs one place where its pressure is known.
-fn pressure(check: &mut Check<'_>, fluid: &Fluid, is_moved: bool) {
-    let moves =
-        is_moved || fluid.boundary.values().any(|condition| matches!(condition, Condition::WallMotion(_)));
+fn pressure(check: &mut Check<'_>, fluid: &Fluid, is_elastic: bool) {
     match (opening(fluid), &fluid.pressure_pin) {
-        (None, _) if moves => check.add(
-            Finding::new("the fluid is enclosed, and its boundary moves")
+        (None, _) if is_elastic => check.add(
+            Finding::new("the fluid is enclosed, and an elastic structure moves its boundary")
                 .mark_if(check.key(&["fluid", "boundary"]), "every group prescribes the velocity")
                 .hint(
-                    "an incompressible fluid cannot give way, and its pressure has no level: \
+                    "an incompressible fluid keeps its volume, which the iterates of a structure do not: \
                      make one group \"stress_free\" or \"do_nothing\"",
                 ),
         ),

@@ -53,7 +53,7 @@ impl Case {
         let header = lines.next().expect("a header");
         let at = header.split(',').position(|name| name == column);
         let at = at.unwrap_or_else(|| panic!("no column {column} in {header}"));
-        let last = lines.last().expect("a row");
+        let last = lines.next_back().expect("a row");
         last.split(',').nth(at).and_then(|value| value.parse().ok()).expect("a number")
     }
 }

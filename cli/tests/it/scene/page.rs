@@ -19,6 +19,39 @@ fn scene_page_is_the_schemas() {
     );
 }
 
+/// `[`Type`]` and `[words](Type::name)` are links in rustdoc and nothing to a reader of the page.
+#[test]
+fn scene_page_has_no_links_of_rustdoc() {
+    let page = reference::markdown();
+    let mut links = 0;
+    for (line, text) in page.lines().enumerate() {
+        for (start, _) in text.match_indices('[').filter(|(start, _)| !text[..*start].ends_with('\\')) {
+            let rest = &text[start..];
+            let target = rest.split_once("](").map(|(_, target)| target);
+            let is_code = text[..start].matches('`').count() % 2 == 1;
+            if is_code {
+                continue;
+            }
+            let target = target.unwrap_or_else(|| panic!("line {}: {rest} leads nowhere", line + 1));
+            let anchor = target.strip_prefix('#').and_then(|target| target.split_once(')'));
+            let (anchor, _) =
+                anchor.unwrap_or_else(|| panic!("line {}: {rest} is no link of the page", line + 1));
+            let heading = |line: &str| {
+                let letters = line.strip_prefix("## `")?.chars();
+                Some(letters.filter(|&c| c.is_alphanumeric() || c == '_').collect::<String>())
+            };
+            assert!(
+                page.lines().filter_map(heading).any(|heading| heading == anchor),
+                "no heading #{anchor}"
+            );
+            links += 1;
+        }
+    }
+    assert!(links > 40, "{links} links are hardly all");
+    assert!(!page.contains("::"), "a path of Rust");
+    assert!(page.contains("| `halvings` | how often a step may be halved: 1 to 16 | `3` |"));
+}
+
 #[test]
 fn scene_page_holds_every_kind_of_key() {
     let page = reference::markdown();

@@ -10,7 +10,7 @@ fn fluid(names: &str) -> [String; 2] {
     ["--set".to_owned(), format!("fluid.mesh.gmsh.surfaces={names}")]
 }
 
-fn with<'a>(overrides: &'a [String]) -> Vec<&'a str> {
+fn with(overrides: &[String]) -> Vec<&str> {
     overrides.iter().map(String::as_str).collect()
 }
 

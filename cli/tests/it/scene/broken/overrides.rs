@@ -77,7 +77,7 @@ fn an_override_with_half_a_list_is_refused() {
 #[test]
 fn an_override_that_breaks_the_fit_is_shown() {
     assert_snapshot!(message(SOUND, &["fluid.boundary.top=no_slip"]), @r#"
-      × the fluid is enclosed, and its boundary moves
+      × the fluid is enclosed, and an elastic structure moves its boundary
         ╭─[scene.toml:16:8]
      15 │ 
      16 │ [fluid.boundary]
@@ -85,8 +85,8 @@ fn an_override_that_breaks_the_fit_is_shown() {
         ·            ╰── every group prescribes the velocity
      17 │ left = "no_slip"
         ╰────
-      help: an incompressible fluid cannot give way, and its pressure has no level: make one group
-            "stress_free" or "do_nothing"
+      help: an incompressible fluid keeps its volume, which the iterates of a structure do not: make
+            one group "stress_free" or "do_nothing"
             without the overrides the scene is sound: look at the `--set`s
     "#);
 }
@@ -136,7 +136,8 @@ fn a_tolerance_out_of_range_is_blamed_on_the_override() {
       ·                                   ─┬
       ·                                    ╰── out of range
       ╰────
-     help: In the unit of what is measured: for a residual of forces N, in two dimensions N/m.
+     help: In the unit of what is measured: for a residual of forces N, in two dimensions N/m; for
+           the interface residual m.
            without the overrides the scene is sound: look at the `--set`s
     "#);
 }
@@ -165,7 +166,8 @@ fn a_choice_in_a_choice_is_blamed_on_the_override() {
       ·                                                    ─┬
       ·                                                     ╰── out of range
       ╰────
-     help: In the unit of what is measured: for a residual of forces N, in two dimensions N/m.
+     help: In the unit of what is measured: for a residual of forces N, in two dimensions N/m; for
+           the interface residual m.
            without the overrides the scene is sound: look at the `--set`s
     "#);
 }

@@ -47,7 +47,8 @@ fn a_spectral_radius_above_one_is_refused() {
         ·                    ╰── out of range
      29 │ 
         ╰────
-      help: Spectral radius at infinite frequency: 1 keeps the energy, 0 damps most. Default: 1.
+      help: Spectral radius at infinite frequency: 1 keeps the energy, and the interface force
+            oscillates from step to step; 0 damps most. Default: 0.5.
     "#);
 }
 

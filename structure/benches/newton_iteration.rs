@@ -10,7 +10,7 @@ use partita_iga::{Side, build};
 use partita_numerics::newton::Problem;
 use partita_numerics::{Factor, Method};
 use partita_structure::{
-    BodyForce, Law, Material, Plane, Space, StructureModel, StructureSettings, StructureSolver, TimeScheme,
+    BodyForce, Law, Material, Plane, StructureModel, StructureSettings, StructureSolver, TimeScheme,
 };
 
 fn deflected(size: [f64; 2], elements: [usize; 2]) -> StructureSolver<2> {

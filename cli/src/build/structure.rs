@@ -89,7 +89,9 @@ fn named<'a>(space: &Space<2>, names: impl Iterator<Item = &'a str>) -> Boundary
 pub(crate) fn supports(space: &Space<2>, structure: &schema::Structure) -> (Boundary, Vec<Held<2>>) {
     let held = |(part, held): (&String, &Vec<schema::Component>)| {
         let mut components = [false; 2];
-        held.iter().for_each(|component| components[component.index()] = true);
+        for component in held {
+            components[component.index()] = true;
+        }
         Held { parts: named(space, std::iter::once(part.as_str())), components }
     };
     (boundary(space, &structure.clamped), structure.held.iter().map(held).collect())

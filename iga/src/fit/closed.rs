@@ -179,6 +179,7 @@ mod tests {
     }
 
     #[test]
+    #[allow(clippy::float_cmp, reason = "both ends are the first point")]
     fn a_closed_curve_passes_its_points_and_is_as_smooth_at_its_ends_as_elsewhere() {
         for degree in 1..=5 {
             let points = ellipse(9);

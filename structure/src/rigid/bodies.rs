@@ -57,7 +57,9 @@ fn join_by_two_nodes(cells: &[&[usize]], nodes: usize, sets: &mut Sets) {
         // The first node that two sets share.
         let mut shared: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         for (node, at) in at_node.iter_mut().enumerate() {
-            at.iter_mut().for_each(|cell| *cell = sets.leader(*cell));
+            for cell in at.iter_mut() {
+                *cell = sets.leader(*cell);
+            }
             at.sort_unstable();
             at.dedup();
             for (i, &a) in at.iter().enumerate() {

@@ -93,7 +93,9 @@ impl Reduced {
             subtract(row[*pivot], known, &mut row);
         }
         let Some((pivot, value)) = largest(&row).filter(|(_, x)| x.abs() > ROUND_OFF * scale) else { return };
-        row.iter_mut().for_each(|x| *x /= value);
+        for x in &mut row {
+            *x /= value;
+        }
         for (_, known) in &mut self.rows {
             subtract(known[pivot], &row, known);
         }

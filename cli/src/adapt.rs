@@ -121,10 +121,6 @@ where
         self.field.output_resolution()
     }
 
-    fn set_input_resolution(&mut self, resolution: f64) {
-        self.field.set_input_resolution(resolution);
-    }
-
     fn begin_step(&mut self, step: &Step) -> Result<(), ParticipantError> {
         self.field.begin_step(step.time, step.dt).map_err(|error| field_error::<F>(&error))?;
         self.entry.copy_from_slice(self.field.values());

@@ -113,7 +113,6 @@ pub fn solve_step(
         transfers.apply_transpose(&interface.load, &mut interface.transferred_load);
         seconds.transfer += lap(&mut clock);
 
-        second.set_input_resolution(first.resolution());
         let effort = second
             .advance(&interface.transferred_load, limits.second, &mut interface.x_tilde)
             .map_err(|error| explain(error, history))?;

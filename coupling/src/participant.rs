@@ -137,8 +137,7 @@ pub struct Effort {
     pub entry_converged: bool,
     /// Whether the field is below its own bound, as the field judges it.
     pub converged: bool,
-    /// Whether it is so because its residual is round-off: above the bound, but as small as the arithmetic can make it, or
-    /// already at the entry.
+    /// Whether it is so because its residual is round-off: above the bound, but as small as the arithmetic can make it.
     pub at_round_off: bool,
     /// Whether no iteration was made although a good part of the load, more than round-off or a tight bound explains, was
     /// not balanced.
@@ -171,10 +170,6 @@ pub trait Participant {
     fn resolution(&self) -> f64 {
         0.0
     }
-
-    /// Tells what the [`resolution`](Self::resolution) of the next input is: a field that misses its balance by no more than
-    /// that has nothing to do.
-    fn set_input_resolution(&mut self, _resolution: f64) {}
 
     /// Opens the step: the solution starts from the committed one.
     ///
@@ -218,9 +213,6 @@ impl<P: Participant + ?Sized> Participant for Box<P> {
     }
     fn resolution(&self) -> f64 {
         (**self).resolution()
-    }
-    fn set_input_resolution(&mut self, resolution: f64) {
-        (**self).set_input_resolution(resolution);
     }
     fn begin_step(&mut self, step: &Step) -> Result<(), ParticipantError> {
         (**self).begin_step(step)

@@ -263,10 +263,6 @@ impl<const D: usize> Problem for FluidSolver<D> {
         self.residual_in_round_off()
     }
 
-    fn uncertainties(&mut self) -> f64 {
-        self.residual_in_uncertainty()
-    }
-
     fn kept_factor(&self) -> KeptFactor {
         self.worth_of_factor()
     }

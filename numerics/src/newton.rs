@@ -42,12 +42,6 @@ pub trait Problem {
         f64::INFINITY
     }
 
-    /// The same in units of what round-off leaves of it *and* of what the data of the call are uncertain by. At 1 and below an
-    /// iteration would follow nothing but noise.
-    fn uncertainties(&mut self) -> f64 {
-        self.round_offs()
-    }
-
     /// Factors the tangent of the last assembly, solves (dR/ds) ds = -R and adds ds to the iterate.
     ///
     /// # Errors
@@ -119,7 +113,7 @@ pub struct Report {
     pub entry_converged: bool,
     /// Whether the bound was met where [`Check`] looks, or the residual was [at round-off](Problem::round_offs).
     pub converged: bool,
-    /// Whether it converged because its residual was round-off: above the bound, or at the entry, so that nothing was left to do.
+    /// Whether it converged because its residual was round-off, above the bound.
     pub at_round_off: bool,
     /// Whether the callback ended the loop.
     pub stopped_by_callback: bool,

@@ -39,11 +39,7 @@ impl<const D: usize> Problem for StructureSolver<D> {
 
     /// The unit is that of the last bits: of the displacement, in every term that depends on it, and of the terms themselves.
     fn round_offs(&mut self) -> f64 {
-        self.residual_in_units_of(0.0)
-    }
-
-    fn uncertainties(&mut self) -> f64 {
-        self.residual_in_units_of(self.load_resolution)
+        self.residual_in_round_off()
     }
 
     fn kept_factor(&self) -> KeptFactor {
@@ -98,13 +94,13 @@ impl<const D: usize> StructureSolver<D> {
         Ok(())
     }
 
-    /// The residual in units of its round-off and that of the load.
-    fn residual_in_units_of(&mut self, of_load: f64) -> f64 {
+    /// The residual in units of its round-off.
+    fn residual_in_round_off(&mut self) -> f64 {
         let weights = self.step().tangent_weights();
         let residual = self.residual_norm();
         let Work { motion, local, .. } = &mut self.work;
         let rounding = self.assembly.rounding(&motion.displacement, &weights, local);
-        relative(residual.absolute, (ROUNDING * rounding).hypot(SUMMING * residual.scale()).hypot(of_load))
+        relative(residual.absolute, (ROUNDING * rounding).hypot(SUMMING * residual.scale()))
     }
 
     fn residual_norm(&self) -> ResidualNorm {

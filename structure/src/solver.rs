@@ -64,8 +64,6 @@ pub struct StructureSolver<const D: usize> {
     pub(crate) committed: StructureState,
     pub(crate) trial: StructureState,
     step: Option<Step>,
-    /// Part of the interface data: no state.
-    pub(crate) load_resolution: f64,
     pub(crate) work: Work<D>,
     pub(crate) phases: PhaseSeconds,
 }
@@ -130,7 +128,6 @@ impl<const D: usize> StructureSolver<D> {
             committed: state.clone(),
             trial: state,
             step: None,
-            load_resolution: 0.0,
             phases: PhaseSeconds::default(),
             space,
             model,
@@ -271,12 +268,6 @@ impl<const D: usize> StructureSolver<D> {
     #[must_use]
     pub fn resolution(&self) -> f64 {
         f64::EPSILON * extent(self.space.points())
-    }
-
-    /// Tells the norm `[N, in 2D N/m]` below which the interface force of the next calls is round-off of what it was made from.
-    /// A residual below that leaves nothing to do.
-    pub fn set_load_resolution(&mut self, resolution: f64) {
-        self.load_resolution = resolution;
     }
 
     /// The residual R `[N, in 2D N/m]` of the last assembly on all dofs; in the rows of supports it holds the reactions.

@@ -94,9 +94,6 @@ pub trait Field: Problem {
     /// The same of the interface output of the last assembled iterate.
     fn output_resolution(&self) -> f64;
 
-    /// Tells the same of the interface data to come.
-    fn set_input_resolution(&mut self, resolution: f64);
-
     /// Settings of the Newton loop.
     fn newton(&self) -> &newton::Settings;
 

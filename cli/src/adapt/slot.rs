@@ -94,12 +94,6 @@ where
         self.0.as_ref().map_or(0.0, Participant::resolution)
     }
 
-    fn set_input_resolution(&mut self, resolution: f64) {
-        if let Some(adapter) = &mut self.0 {
-            adapter.set_input_resolution(resolution);
-        }
-    }
-
     fn begin_step(&mut self, step: &Step) -> Result<(), ParticipantError> {
         self.0.as_mut().map_or(Ok(()), |adapter| adapter.begin_step(step))
     }

@@ -13,7 +13,7 @@ use super::backflow;
 use super::field::{Field, Suspect};
 
 macro_rules! field {
-    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr, $verify:expr, $work:expr, $suspect:expr, $resolution:expr, $of_output:expr, $of_input:expr) => {
+    ($solver:ty, $state:ty, $error:ty, $name:literal, $result:expr, $verify:expr, $work:expr, $suspect:expr, $resolution:expr, $of_output:expr) => {
         impl Field for $solver {
             type State = $state;
             const NAME: &'static str = $name;
@@ -73,9 +73,6 @@ macro_rules! field {
             fn output_resolution(&self) -> f64 {
                 $of_output(self)
             }
-            fn set_input_resolution(&mut self, resolution: f64) {
-                $of_input(self, resolution);
-            }
             fn newton(&self) -> &newton::Settings {
                 self.newton_settings()
             }
@@ -99,10 +96,9 @@ field!(
     fluid_work,
     backflow::suspect,
     // Velocity comes first.
-    |fluid: &Self, part| if part == 0 { fluid.velocity_resolution() } else { 0.0 },
-    Self::load_resolution,
-    // It knows how exact displacements can be.
-    |_: &mut Self, _| {}
+    |fluid: &Self, part| if part == 0 { fluid.velocity_resolution() } else { fluid.pressure_resolution() },
+    // Nothing is judged by a change of the load.
+    |_: &Self| 0.0
 );
 // No interface data can break a structure before its equations are solved.
 field!(
@@ -115,8 +111,7 @@ field!(
     structure_work,
     |_: &Self| None,
     |structure: &Self, _| structure.resolution(),
-    Self::resolution,
-    Self::set_load_resolution
+    Self::resolution
 );
 
 fn fluid_work(fluid: &FluidSolver<2>) -> WorkDetails {

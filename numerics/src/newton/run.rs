@@ -18,9 +18,7 @@ use super::{
 ///          callback says stop? leave
 /// ```
 ///
-/// A residual [at round-off](Problem::round_offs) counts as converged whatever the bound asks for, and the report says so. A
-/// call that enters with nothing but [noise](Problem::uncertainties) leaves the iterate alone, also under
-/// [`Check::Lagged`]: an iteration could only replace noise by other noise, which a coupling would take for news.
+/// A residual [at round-off](Problem::round_offs) counts as converged whatever the bound asks for, and the report says so.
 ///
 /// The entry residual is evaluated in every call, whatever an earlier call left behind. The callback sees
 /// every iteration, the last one included. The residual of the report, and all that the problem assembled
@@ -75,10 +73,7 @@ pub fn solve<P: Problem>(
     let mut watch = Watch::new(entry);
     let mut level = Level::of(problem, bound, &entry);
     report.entry_converged = level.is_converged();
-    if is_at_rest(problem, &entry) {
-        report.entry_converged = true;
-        report.converge(Level::AtRoundOff);
-    } else if level.is_converged() && !lagged {
+    if level.is_converged() && !lagged {
         report.converge(level);
     }
     while !report.converged && !report.stopped_by_callback && report.iterations < most {
@@ -183,12 +178,6 @@ impl Level {
     fn is_converged(self) -> bool {
         self != Self::Above
     }
-}
-
-/// Whether a call enters with nothing but noise. Of a residual of zero no iteration makes anything
-/// else.
-fn is_at_rest<P: Problem>(problem: &mut P, entry: &ResidualNorm) -> bool {
-    std::env::var_os("REST").is_some() && entry.absolute > 0.0 && problem.uncertainties() <= 1.0
 }
 
 /// Assembles and refuses a residual that is not finite.

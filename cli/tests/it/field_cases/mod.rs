@@ -1,7 +1,5 @@
 //! Inputs in the manner of public bug reports, each with the outcome that is right for its kind of fault.
 
-#![allow(dead_code, reason = "the first cases follow")]
-
 mod convergence;
 mod geometry;
 mod meshes;

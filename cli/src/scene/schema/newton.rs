@@ -9,7 +9,8 @@ use super::numbers::{Count, Fraction, Positive};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Newton {
-    /// When the residual is small enough. Default: `{ relative = 1e-10 }`.
+    /// When the residual is small enough. Default: `{ relative = 1e-10 }`. No bound lies below round-off: a residual that is
+    /// round-off of its own terms counts as converged, and the record says `at_round_off`.
     pub tolerance: Tolerance,
     /// `"before"` (default) or `"lagged"`.
     pub check: Check,
@@ -50,6 +51,7 @@ pub enum Check {
     /// The residual before each solve: a call that enters converged costs no iteration.
     #[default]
     Before,
-    /// Solve first, then judge the residual from before that solve: at least one iteration a call.
+    /// Solve first, then judge the residual from before that solve: at least one iteration a call, unless nothing but
+    /// round-off is left to solve for.
     Lagged,
 }

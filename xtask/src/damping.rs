@@ -14,8 +14,7 @@ use std::path::Path;
 use crate::csv::Csv;
 use crate::selection::{Mode, Selection};
 use crate::task::{self, TaskError};
-use case::CASES;
-use row::{Radius, Row};
+use row::Row;
 
 const DATA: &str = "docs/data/damping.csv";
 const PAGE: &str = "docs/damping.md";
@@ -69,15 +68,17 @@ fn differences(kept: &[Row], found: &[Row]) -> Vec<String> {
     all
 }
 
-/// All rows that a full run gives, without what was measured.
-fn wanted() -> impl Iterator<Item = (&'static str, Radius)> {
-    CASES.iter().flat_map(|case| row::RADII.into_iter().map(|radius| (case.name, radius)))
-}
-
 #[cfg(test)]
 mod tests {
+    use super::case::CASES;
+    use super::row::Radius;
     use super::*;
     use crate::task::workspace_root;
+
+    /// All rows that a full run gives, without what was measured.
+    fn wanted() -> impl Iterator<Item = (&'static str, Radius)> {
+        CASES.iter().flat_map(|case| row::RADII.into_iter().map(|radius| (case.name, radius)))
+    }
 
     #[test]
     fn the_page_is_that_of_the_data() {

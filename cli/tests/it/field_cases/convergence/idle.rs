@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use super::plain;
 use crate::field_cases::Case;
 
 #[test]
@@ -39,4 +40,20 @@ fn a_structure_without_a_load_is_no_cause_for_a_warning() {
     let run = case.partita(&["run", "scene.toml", "--out", "out", "--set", set]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(!run.stderr.contains("no Newton iteration"), "{}", run.stderr);
+}
+
+#[test]
+fn a_fluid_that_never_iterates_is_reported_too() {
+    let case = Case::new("absolute_tolerance");
+    let outcome = case.run_with("out", &["fluid.newton.tolerance={absolute=1e3}"]);
+    let message = plain(&outcome);
+    assert!(message.contains("warning: the fluid made no Newton iteration in 5 of 5 steps"), "{message}");
+}
+
+/// Water at rest under its weight is loaded, but balanced.
+#[test]
+fn water_at_rest_is_not_idle() {
+    let tank = Case::new("at_rest");
+    let outcome = tank.run_with("out", &["time.steps=100"]);
+    assert!(outcome.code == 0 && !plain(&outcome).contains("no Newton iteration"), "{}", plain(&outcome));
 }

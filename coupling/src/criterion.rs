@@ -29,7 +29,8 @@ pub enum Criterion {
         tolerance: f64,
     },
     /// Every field met its own residual bound at the *entry* of its call, so it had nothing to do
-    /// (Spenke, Delaisse, Degroote, Hosters 2023). Needs no tolerance.
+    /// (Spenke, Delaisse, Degroote, Hosters 2023). Needs no tolerance. A system in which nothing but round-off changes has
+    /// nothing to do, either.
     EntryResiduals,
     /// `|r| < bound`, absolute \[m\] or relative to `|x_tilde|`.
     InterfaceResidual(Bound),
@@ -58,7 +59,9 @@ impl Criterion {
             Self::Changes { tolerance } => {
                 iteration.fields.iter().all(|field| changes_below(field, *tolerance))
             }
-            Self::EntryResiduals => iteration.fields.iter().all(|field| field.entry_converged),
+            Self::EntryResiduals => {
+                iteration.fields.iter().all(|field| field.entry_converged) || is_at_rest(iteration)
+            }
             Self::InterfaceResidual(Bound::Absolute(bound)) => iteration.residual < *bound,
             Self::InterfaceResidual(Bound::Relative(bound)) => iteration.relative_residual < *bound,
             Self::All(parts) => !parts.is_empty() && parts.iter().all(|part| part.holds_after(iteration)),
@@ -88,6 +91,12 @@ impl Criterion {
             }
         }
     }
+}
+
+/// Whether nothing changes but round-off, of which both the interface and the fields make zero.
+fn is_at_rest(iteration: &IterationRecord) -> bool {
+    iteration.relative_residual == 0.0
+        && iteration.fields.iter().all(|field| changes_below(field, f64::MIN_POSITIVE))
 }
 
 /// A field that reports no change at all has not said that it is unchanged.
@@ -128,6 +137,16 @@ mod tests {
         let mut one = history([0.0, 0.0], true, true);
         one.iterations[0].fields[0].entry_converged = false;
         assert!(!Criterion::EntryResiduals.holds(&one));
+    }
+
+    #[test]
+    fn nothing_but_round_off_leaves_nothing_to_do() {
+        let mut rest = history([0.0, 0.0], false, true);
+        assert!(!Criterion::EntryResiduals.holds(&rest), "the interface still moves");
+        rest.iterations[0].relative_residual = 0.0;
+        assert!(Criterion::EntryResiduals.holds(&rest));
+        rest.iterations[0].fields[0].changes[0].value = 1e-300;
+        assert!(!Criterion::EntryResiduals.holds(&rest));
     }
 
     #[test]

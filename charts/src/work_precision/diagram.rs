@@ -159,8 +159,9 @@ mod tests {
             assert!(svg.contains(needed), "{needed} is not in the drawing");
         }
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
-        // Two legends, six points with both numbers, the ring, the hollow one of the legend.
-        assert_eq!(svg.matches("<circle").count(), 2 + 6 + 1 + 1);
+        // The first curve is drawn with discs: its legend, three points with both numbers; the ring, and the hollow one of the
+        // legend. The second curve has another mark.
+        assert_eq!(svg.matches("<circle").count(), 1 + 3 + 1 + 1);
         assert!(!svg.contains("known"), "an exact reference needs no word");
         well_formed(&svg);
         assert_eq!(faults(&svg), Vec::<String>::new());

@@ -1,6 +1,7 @@
 //! Formulas where a run will evaluate them: the first value that is not finite.
 
 use partita_mesh::{Mesh, Place, simplex};
+use partita_numerics::time::shown;
 
 use super::schema::{Condition, Fluid, Initial, Probe, Scene, Time, VectorFormula};
 use super::shapes::Shapes;
@@ -102,7 +103,8 @@ impl Use<'_> {
             points.iter().find_map(|point| {
                 let value = self.formula.value(point, time);
                 let value = value.into_iter().find(|component| !component.is_finite())?;
-                let what = format!("the {} is {value} at {}, t = {time} s", self.what, Place::from(*point));
+                let what =
+                    format!("the {} is {value} at {}, t = {} s", self.what, Place::from(*point), shown(time));
                 Some(Fault { path: self.path.clone(), what })
             })
         })

@@ -26,8 +26,8 @@ const COLUMNS: &str = "
   distance from the reference, as part of the root mean square of the reference. Displacement is that of the tip.
 * The last row is the **reference**, a run with much smaller steps and radius 0.5, sampled at the ends of the coarse steps. Its
   errors are the distance from the same run with radius 0.2: what the choice of its own radius may account for. Errors of
-  different radii that are closer together than that cannot be told apart (the force of FSI1: the flag also vibrates along its
-  length, 26 times per second, and that the reference just resolves).
+  different radii that are closer together than that cannot be told apart. (The force of FSI1 is such a case: its reference is
+  known to 0.084 % only.)
 
 The reference solves the same equations on the same mesh. Stabilization depends on the step size, so these runs leave out
 grad-div and raise `inverse_constant`, which leaves little of that dependence; what is left is the same at every radius.

@@ -3,27 +3,6 @@
 use super::{Case, plain};
 
 #[test]
-fn of_several_outlets_those_are_named_where_fluid_enters() {
-    let case = Case::new("backflow");
-    case.replace("scene.toml", "bottom = \"no_slip\"", "bottom = \"stress_free\"");
-    case.replace(
-        "scene.toml",
-        "top = \"no_slip\"",
-        "top = { stress_free = { backflow_stabilization = true } }",
-    );
-    let outcome =
-        case.run_with("out", &["time.step=0.04", "fluid.newton.max_iterations=3", "time.steps=400"]);
-    let message = plain(&outcome);
-    assert_eq!(outcome.code, 3, "{message}");
-    assert!(
-        message.contains("`bottom` (stress_free, ")
-            && message.contains("fluid.boundary.bottom = { stress_free"),
-        "{message}"
-    );
-    assert!(!message.contains("`fluid.boundary.top = "), "its backflow is stabilized: {message}");
-}
-
-#[test]
 fn stabilization_that_is_on_is_not_advised() {
     let case = Case::new("backflow");
     let sets = [

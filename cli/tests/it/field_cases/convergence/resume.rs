@@ -27,7 +27,7 @@ fn a_complete_run_says_so_and_can_be_extended_as_it_says() {
     let json = case.partita(&["resume", "out", "--json", "--quiet"]);
     assert_eq!((json.code, json.stdout, json.stderr.as_str()), (0, before, ""));
 
-    case.replace("out/scene.toml", "steps = 5", "steps = 8");
+    case.replace("out/scene.toml", "\nsteps = 5", "\nsteps = 8");
     let extended = case.partita(&["resume", "out"]);
     assert_eq!(extended.code, 0, "{}", plain(&extended));
     assert_eq!(steps(&case, "out"), 8);

@@ -95,7 +95,7 @@ impl Criterion {
 
 /// Whether nothing changes but round-off, of which both the interface and the fields make zero.
 fn is_at_rest(iteration: &IterationRecord) -> bool {
-    iteration.relative_residual == 0.0
+    iteration.relative_residual <= 0.0
         && iteration.fields.iter().all(|field| changes_below(field, f64::MIN_POSITIVE))
 }
 

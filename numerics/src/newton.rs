@@ -93,6 +93,7 @@ pub struct Iteration {
 }
 
 /// What a call of [`solve`] cost and reached.
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, each with its own name")]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report {
     /// Newton iterations: linear solves that moved the iterate.

@@ -64,7 +64,9 @@ impl<const D: usize> StructureSolver<D> {
             phi.copy_from_slice(&image);
             factor.solve(&mut phi);
             let length = phi.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            phi.iter_mut().for_each(|x| *x /= length);
+            for x in &mut phi {
+                *x /= length;
+            }
             pattern.multiply(&stiffness, &phi, &mut force);
             weigh(&phi, &mut image);
             let quotient = dot(&phi, &force) / dot(&phi, &image);

@@ -53,7 +53,7 @@ fn word(outlet: Outlet) -> &'static str {
     }
 }
 
-/// `right` (do_nothing, 12 % of the flow through the boundary)
+/// As in "`right` (`do_nothing`, 12 % of the flow through the boundary)".
 fn described(Backflow { group, outlet, share }: &Backflow) -> String {
     format!("`{group}` ({}, {:.2} % of the flow through the boundary)", word(*outlet), 100.0 * share)
 }

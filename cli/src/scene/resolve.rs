@@ -121,7 +121,9 @@ fn check(sources: &Sources) -> Result<(Scene, Document<'_>), Vec<Finding>> {
     if let Some(scene) = scene.as_ref().filter(|_| is_whole) {
         validate(&mut all, scene);
     }
-    findings.into_iter().for_each(|finding| all.add(finding));
+    for finding in findings {
+        all.add(finding);
+    }
     all.done(())?;
     Ok((scene.expect("a document without findings was read"), document))
 }

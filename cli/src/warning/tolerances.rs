@@ -11,7 +11,7 @@ pub(super) fn newton(found: &mut Found<'_>, field: &str, newton: &Newton, load: 
     let path = |kind| [field, "newton", "tolerance", kind];
     match newton.tolerance {
         Tolerance::Relative(bound) if bound.get() < ROUND_OFF => {
-            tight(found, &path("relative"), bound.get(), "")
+            tight(found, &path("relative"), bound.get(), "");
         }
         Tolerance::Absolute(bound) if bound.get() < ROUND_OFF * load => {
             tight(found, &path("absolute"), bound.get(), &format!(" of a load of about {load:.1e} N/m"));
@@ -33,7 +33,7 @@ pub(super) fn coupling(found: &mut Found<'_>, coupling: &Coupling, extent: f64) 
     let path = |choice| ["coupling", "convergence", choice];
     match coupling.convergence {
         Convergence::Changes(bound) if bound.get() < ROUND_OFF => {
-            tight(found, &path("changes"), bound.get(), "")
+            tight(found, &path("changes"), bound.get(), "");
         }
         Convergence::ChangesAndResidual(bound) if bound.get() < ROUND_OFF => {
             tight(found, &path("changes_and_residual"), bound.get(), "");

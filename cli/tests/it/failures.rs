@@ -28,7 +28,7 @@ fn left_in(out: &Path, failed_step: usize) -> Left {
 
 /// What was written after the warnings about the scene.
 fn without_warnings(stderr: &str) -> String {
-    stderr.lines().filter(|line| !line.starts_with("warning: ")).map(|line| format!("{line}\n")).collect()
+    stderr.split_inclusive('\n').filter(|line| !line.starts_with("warning: ")).collect()
 }
 
 /// A message without the breaks and bars of the terminal: one line for what and where, one for the hint.

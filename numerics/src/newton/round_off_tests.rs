@@ -24,7 +24,7 @@ impl Noisy {
 
     fn run(&mut self, check: Check, bound: Bound, limit: Limit) -> Result<Report, Failure<Infallible>> {
         self.assemblies = 0;
-        solve(self, &Settings { check, bound, ..Settings::default() }, limit, |_, _| Verdict::Continue)
+        solve(self, &Settings { bound, check, ..Settings::default() }, limit, |_, _| Verdict::Continue)
     }
 }
 

@@ -91,8 +91,13 @@ fn table(text: &mut String, case: &Case, rows: &[&Row]) {
 
 /// Three digits, without an exponent.
 fn digits(value: f64) -> String {
-    let places = if value > 0.0 { (2.0 - value.log10().floor()).clamp(0.0, 9.0) as usize } else { 0 };
-    format!("{value:.places$}")
+    // The first number of places that leaves three digits: 0.00312, 2.26, 41.0, 128.
+    let places = (0..9).find(|&places| value * 10_f64.powi(places) >= 99.95).unwrap_or(if value > 0.0 {
+        9
+    } else {
+        0
+    });
+    format!("{value:.*}", usize::try_from(places).expect("not negative"))
 }
 
 /// Why the default is what it is, in the numbers of the rows.

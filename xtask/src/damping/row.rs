@@ -88,7 +88,7 @@ impl Row {
             (None, None) => true,
             (Some(_), None) | (None, Some(_)) => false,
         };
-        self.value == other.value
+        self.value.to_bits() == other.value.to_bits()
             && both(self.second_difference, other.second_difference)
             && same(self.displacement_error, other.displacement_error)
             && both(self.force_error, other.force_error)

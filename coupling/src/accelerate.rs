@@ -1,7 +1,7 @@
 //! From one iterate of the interface displacement to the next.
 //!
-//! An accelerator sees pairs `(x, r)` with `r = x_tilde - x` and proposes the next `x`. Within a step it
-//! collects what it needs; at the end of the step [`step_converged`](Accelerator::step_converged) moves it into the state that
+//! An accelerator sees pairs `(x, r)` with `r = x_tilde - x` and proposes the next `x`. It may learn only from pairs that both
+//! fields answered (see [`Answer`]). Within a step it collects what it needs; at the end of the step [`step_converged`](Accelerator::step_converged) moves it into the state that
 //! lasts, [`step_failed`](Accelerator::step_failed) forgets it.
 
 mod aitken;
@@ -37,10 +37,11 @@ pub trait Accelerator: Send {
     }
 
     /// Replaces `x` by the next iterate, from the residual `r = x_tilde - x` that `x` led to.
-    fn propose(&mut self, x: &mut [f64], r: &[f64]) -> Proposal;
+    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: &Answer) -> Proposal;
 
-    /// The step is accepted. `x` and `r` belong to its last iteration, which no proposal followed.
-    fn step_converged(&mut self, x: &[f64], r: &[f64]);
+    /// The step is accepted. `x`, `r` and `answer` belong to its last iteration, which no proposal followed. Returns the
+    /// columns dropped now.
+    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: &Answer) -> Vec<DroppedColumn>;
 
     /// The step is given up: back to the state before it, bit for bit.
     fn step_failed(&mut self);
@@ -53,6 +54,24 @@ pub trait Accelerator: Send {
     /// # Errors
     /// When the state belongs to another method or another interface.
     fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError>;
+}
+
+/// What a residual is worth as evidence of how the fields respond.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer {
+    /// Whether both fields answered the input of this iteration. A field that enters its call converged and takes no Newton
+    /// iteration does not: it hands out the load, or the displacement, of an earlier input. The difference to another
+    /// iteration then is no derivative of anything.
+    pub answered: bool,
+    /// Norm below which a difference of two outputs `x_tilde` is round-off, whatever their own size \[m\].
+    pub resolution: f64,
+}
+
+impl Default for Answer {
+    /// An answer, exact to the last bit.
+    fn default() -> Self {
+        Self { answered: true, resolution: 0.0 }
+    }
 }
 
 /// How a proposal came about.
@@ -89,8 +108,10 @@ pub struct DroppedColumn {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DropReason {
-    /// The residual or the output did not change at all between the two iterations.
+    /// The residual or the output did not change between the two iterations, or by no more than round-off.
     NoChange,
+    /// A field entered its call converged and took no iteration: its output is the answer to an earlier input.
+    NoAnswer,
     /// The filter found it to depend on newer columns.
     Dependent {
         /// What is independent of newer columns, relative to what the filter compares it with.

@@ -141,7 +141,8 @@ pub fn solve_step(
         let record = history.iterations.last_mut().expect("the record was just pushed");
         if !converged && !at_bound && growth.is_none() {
             clock = Instant::now();
-            record.acceleration = Some(accelerator.propose(&mut interface.x, &interface.r));
+            let answer = record.answer(second.resolution());
+            record.acceleration = Some(accelerator.propose(&mut interface.x, &interface.r, &answer));
             record.seconds.acceleration += lap(&mut clock);
         }
         record.seconds = record.seconds.to_the_microsecond();

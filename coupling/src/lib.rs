@@ -61,7 +61,9 @@ pub mod retry;
 pub mod transfer;
 mod vector;
 
-pub use accelerate::{Acceleration, Accelerator, AcceleratorState, Filter, Proposal, QuasiNewton};
+pub use accelerate::{
+    Acceleration, Accelerator, AcceleratorState, Answer, DroppedColumn, Filter, Proposal, QuasiNewton,
+};
 pub use criterion::{Bound, Criterion};
 pub use divergence::Growth;
 pub use error::{ParticipantError, SetupError, StepError, StepFailure};

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::accelerate::{Acceleration, Accelerator, AcceleratorState};
+use crate::accelerate::{Acceleration, Accelerator, AcceleratorState, DroppedColumn};
 use crate::criterion::Criterion;
 use crate::dirichlet_neumann::{Interface, solve_step};
 use crate::error::{SetupError, StepError, StepFailure};
@@ -213,8 +213,8 @@ impl<A: Participant, B: Participant> March<A, B> {
         self.history = StepHistory::new(Step { index: clock.steps, time: clock.time, dt });
         match self.attempt(observer) {
             Ok(converged) => {
-                self.accept(clock);
-                let record = StepRecord::new(&self.history, converged);
+                let dropped = self.accept(clock);
+                let record = StepRecord::new(&self.history, converged, &dropped);
                 observer.step_finished(&record);
                 Ok(record)
             }
@@ -260,13 +260,17 @@ impl<A: Participant, B: Participant> March<A, B> {
         !self.interface.x.is_empty()
     }
 
-    fn accept(&mut self, clock: Clock) {
+    /// Commits the step; returns the columns that its last iteration made the accelerator drop.
+    fn accept(&mut self, clock: Clock) -> Vec<DroppedColumn> {
         self.first.commit();
         self.second.commit();
-        self.choices.accelerator.step_converged(&self.interface.x, &self.interface.r);
+        let last = self.history.last().expect("a finished step has at least one iteration");
+        let answer = last.answer(self.second.resolution());
+        let dropped = self.choices.accelerator.step_converged(&self.interface.x, &self.interface.r, &answer);
         self.work = self.interface.work_since(&self.past.newest().displacement);
         self.past.push(clock.time, &self.interface.x_tilde);
         self.clock = clock;
+        dropped
     }
 
     fn give_up(&mut self) {

@@ -7,7 +7,7 @@ use std::ops::AddAssign;
 
 use serde::{Deserialize, Serialize};
 
-use crate::accelerate::Proposal;
+use crate::accelerate::{Answer, DroppedColumn, Proposal};
 use crate::participant::{Change, Effort, NewtonLimit, PhaseTimes, Step, WorkDetails};
 use crate::retry::RetryRecord;
 
@@ -83,6 +83,13 @@ impl FieldRecord {
             details: effort.details,
         }
     }
+
+    /// Whether the output is the field's answer to this input: not where the field entered its call converged and took no
+    /// iteration. A field without Newton iterations, which assembles nothing, always answers.
+    #[must_use]
+    pub fn answers(&self) -> bool {
+        self.newton > 0 || !self.entry_converged || self.assemblies == 0
+    }
 }
 
 /// One coupling iteration: one call of both fields.
@@ -112,6 +119,11 @@ impl IterationRecord {
     #[must_use]
     pub fn largest_change(&self) -> f64 {
         self.fields.iter().flat_map(|field| &field.changes).map(|change| change.value).fold(0.0, f64::max)
+    }
+
+    /// What the residual tells an accelerator, where outputs are exact to `resolution` \[m\].
+    pub(crate) fn answer(&self, resolution: f64) -> Answer {
+        Answer { answered: self.fields.iter().all(FieldRecord::answers), resolution }
     }
 
     /// The record without its times.
@@ -166,6 +178,9 @@ pub struct StepRecord {
     /// Largest relative change of the last iteration.
     #[serde(with = "finite_or_null")]
     pub largest_change: f64,
+    /// Secant columns dropped in the step, for whatever reason, those of its last iteration included.
+    #[serde(default)]
+    pub dropped_columns: usize,
     /// Sums over the calls of the first and of the second field.
     pub fields: [FieldTotals; 2],
     /// Where the time went.
@@ -173,17 +188,18 @@ pub struct StepRecord {
 }
 
 impl StepRecord {
-    /// The summary of the iterations of a step.
+    /// The summary of the iterations of a step, whose last one made the accelerator drop columns, too.
     ///
     /// # Panics
     /// When the history is empty.
     #[must_use]
-    pub fn new(history: &StepHistory, converged: bool) -> Self {
+    pub fn new(history: &StepHistory, converged: bool, dropped: &[DroppedColumn]) -> Self {
         let last = history.last().expect("a finished step has at least one iteration");
         let mut seconds = Seconds::default();
         for iteration in &history.iterations {
             seconds += iteration.seconds;
         }
+        let proposals = history.iterations.iter().filter_map(|iteration| iteration.acceleration.as_ref());
         Self {
             step: history.step.index,
             time: history.step.time,
@@ -192,6 +208,7 @@ impl StepRecord {
             iterations: history.iterations.len(),
             residual: last.residual,
             largest_change: last.largest_change(),
+            dropped_columns: proposals.map(|proposal| proposal.dropped.len()).sum::<usize>() + dropped.len(),
             fields: [history.totals(0), history.totals(1)],
             seconds: seconds.to_the_microsecond(),
         }
@@ -383,7 +400,7 @@ mod tests {
         let mut history = samples::history([0.5, 0.25], false, true);
         history.iterations.push(history.iterations[0].clone());
         history.iterations[1].seconds.transfer = 2.0;
-        let record = StepRecord::new(&history, true);
+        let record = StepRecord::new(&history, true, &[]);
         assert_eq!((record.iterations, record.fields[0].newton, record.fields[1].assemblies), (2, 4, 6));
         assert_eq!(record.fields[1].name, "structure");
         assert_eq!((record.fields[0].details.tangents, record.fields[0].details.mesh_solves), (4, 2));
@@ -410,12 +427,12 @@ mod tests {
         let call = &mut history.iterations[0].fields[1];
         (call.newton, call.idle_under_load, call.at_round_off) = (0, true, true);
         history.iterations.push(history.iterations[0].clone());
-        let [fluid, structure] = StepRecord::new(&history, true).fields;
+        let [fluid, structure] = StepRecord::new(&history, true, &[]).fields;
         assert_eq!((fluid.idle_under_load, fluid.at_round_off), (false, 0));
         assert_eq!((structure.idle_under_load, structure.at_round_off), (true, 2));
         history.iterations[1].fields[1].newton = 1;
         assert!(
-            !StepRecord::new(&history, true).fields[1].idle_under_load,
+            !StepRecord::new(&history, true, &[]).fields[1].idle_under_load,
             "it moved in the second iteration"
         );
     }

@@ -122,6 +122,7 @@ pub(super) fn step_columns() -> Vec<Column<StepRecord>> {
 /// Columns of the table of all steps: those of `steps.csv`, then times and more of each field's work.
 pub(super) fn all_step_columns() -> Vec<Column<StepRecord>> {
     let mut columns = step_columns();
+    columns.push(Column::new("dropped_columns", |r: &StepRecord| r.dropped_columns));
     columns.extend(seconds_columns());
     columns.extend(detail_columns(|r: &StepRecord, name| {
         r.fields.iter().find(|field| field.name == name).map(|field| field.details)

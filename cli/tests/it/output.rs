@@ -72,7 +72,7 @@ fn write_steps(writer: &mut RunWriter, steps: impl IntoIterator<Item = usize>, s
     let drawing = Tessellation::new([&[0.0, 1.0], &[0.0, 1.0]], 1);
     for step in steps {
         let history = history(step, step, speed);
-        let record = StepRecord::new(&history, true);
+        let record = StepRecord::new(&history, true, &[]);
         history.iterations.iter().for_each(|iteration| writer.iteration(iteration).expect("written"));
         writer.step(&record).expect("written");
         writer.probes(step, record.time, &[0.1 * step as f64, -0.0]).expect("written");
@@ -136,7 +136,7 @@ fn the_folder_holds_every_record_once() {
     let expected: Vec<Record> = (1..=3)
         .flat_map(|step| {
             let history = history(step, step, 1.0);
-            let last = Record::Step(StepRecord::new(&history, true));
+            let last = Record::Step(StepRecord::new(&history, true, &[]));
             history.iterations.into_iter().map(Record::Iteration).chain([last])
         })
         .collect();

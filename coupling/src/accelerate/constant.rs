@@ -1,6 +1,6 @@
 //! Relaxation by a constant factor.
 
-use super::{Accelerator, AcceleratorState, Proposal, check_omega};
+use super::{Accelerator, AcceleratorState, Answer, DroppedColumn, Proposal, check_omega};
 use crate::error::SetupError;
 use crate::vector::add_scaled;
 
@@ -25,12 +25,14 @@ impl Constant {
 }
 
 impl Accelerator for Constant {
-    fn propose(&mut self, x: &mut [f64], r: &[f64]) -> Proposal {
+    fn propose(&mut self, x: &mut [f64], r: &[f64], _: &Answer) -> Proposal {
         add_scaled(self.omega, r, x);
         Proposal::relaxation(self.omega)
     }
 
-    fn step_converged(&mut self, _: &[f64], _: &[f64]) {}
+    fn step_converged(&mut self, _: &[f64], _: &[f64], _: &Answer) -> Vec<DroppedColumn> {
+        Vec::new()
+    }
 
     fn step_failed(&mut self) {}
 

@@ -1,6 +1,12 @@
 //! Secant columns: what the iterations have told about the interface.
 //!
 //! Within a step, `v_j = r^j - r^{j-1}` and `w_j = x_tilde^j - x_tilde^{j-1}`; no column spans two steps.
+//!
+//! A pair is a secant only where the difference of the outputs is the fields' response to the difference of the inputs. It is
+//! none where a field gave the answer to an earlier input (see [`Answer`]): there `x_tilde` has hardly moved, and `r` holds
+//! what `x` moved by, which the model has accounted for already. A step along it would only lead away again. So `x` *waits*
+//! for one iteration, in which the other field settles. Where the answer is missing twice running, the residual is as good
+//! as the field's bound lets it be, and `x` moves on. A difference that is round-off tells nothing either.
 
 use std::collections::VecDeque;
 
@@ -8,8 +14,8 @@ use serde::{Deserialize, Serialize};
 
 use super::filter::Filter;
 use super::qr::Qr;
-use super::{DropReason, DroppedColumn};
-use crate::vector::{add_scaled, subtract};
+use super::{Answer, DropReason, DroppedColumn};
+use crate::vector::{add_scaled, norm, subtract};
 
 /// One pair of differences, as plain data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -96,6 +102,11 @@ pub(crate) struct Secants {
     qr: Qr,
     /// Whether `qr` belongs to `columns`.
     factored: bool,
+    /// Whether an iteration of this step has been seen.
+    begun: bool,
+    /// Whether `x` is to stay as it is for the next iteration.
+    waits: bool,
+    /// The last iteration of this step.
     last: Option<Iterate>,
     /// `-c`, the least-squares solution of `min |V c + r|` with its sign turned.
     solution: Vec<f64>,
@@ -108,6 +119,8 @@ impl Secants {
             columns: Columns::new(),
             qr: Qr::default(),
             factored: true,
+            begun: false,
+            waits: false,
             last: None,
             solution: Vec::new(),
         }
@@ -128,6 +141,8 @@ impl Secants {
         self.factored = columns.all.is_empty();
         self.columns = columns;
         self.qr.clear();
+        self.begun = false;
+        self.waits = false;
         self.last = None;
     }
 
@@ -145,33 +160,60 @@ impl Secants {
 
     /// Whether no iterate of this step has been seen yet.
     pub(crate) fn at_first_iteration(&self) -> bool {
-        self.last.is_none()
+        !self.begun
+    }
+
+    /// Whether the iteration just observed had no answer, so that `x` is to stay until it has one.
+    pub(crate) fn waits(&self) -> bool {
+        self.waits
+    }
+
+    /// `x` moves all the same: where nothing is known, there is nothing the residual could have been accounted for by.
+    pub(crate) fn move_on(&mut self) {
+        self.waits = false;
     }
 
     /// Adds the differences to the last iterate of this step and filters. `jr = J_prev r`, or empty.
-    pub(crate) fn observe(&mut self, x: &[f64], r: &[f64], jr: &[f64]) -> Vec<DroppedColumn> {
+    pub(crate) fn observe(
+        &mut self,
+        x: &[f64],
+        r: &[f64],
+        jr: &[f64],
+        answer: &Answer,
+    ) -> Vec<DroppedColumn> {
+        let first = !std::mem::replace(&mut self.begun, true);
+        let waited = self.waits;
+        self.waits = !(answer.answered || first || waited);
+        let mut dropped = self.factor();
         let mut x_tilde = x.to_vec();
         add_scaled(1.0, r, &mut x_tilde);
-        let now = Iterate { x_tilde, r: r.to_vec(), jr: jr.to_vec() };
-        match self.last.replace(now) {
-            Some(before) => self.add(&before),
-            None if !self.factored => {
-                self.factored = true;
-                let dropped = self.filter.rebuild(&mut self.qr, &self.columns.all);
-                self.remove(&dropped)
-            }
-            None => Vec::new(),
+        let before = self.last.replace(Iterate { x_tilde, r: r.to_vec(), jr: jr.to_vec() });
+        if !answer.answered {
+            dropped.push(DroppedColumn { steps_ago: 0, column: 0, reason: DropReason::NoAnswer });
+        } else if let Some(before) = before.filter(|_| !waited) {
+            dropped.extend(self.add(&before, answer.resolution));
         }
+        dropped
     }
 
-    fn add(&mut self, before: &Iterate) -> Vec<DroppedColumn> {
+    /// Factors the columns of earlier steps at the first iteration of this one.
+    fn factor(&mut self) -> Vec<DroppedColumn> {
+        if std::mem::replace(&mut self.factored, true) {
+            return Vec::new();
+        }
+        let dropped = self.filter.rebuild(&mut self.qr, &self.columns.all);
+        self.remove(&dropped)
+    }
+
+    fn add(&mut self, before: &Iterate, resolution: f64) -> Vec<DroppedColumn> {
         let now = self.last.as_ref().expect("the iterate was just stored");
         let column = Column {
             v: difference(&now.r, &before.r),
             w: difference(&now.x_tilde, &before.x_tilde),
             jv: difference(&now.jr, &before.jr),
         };
-        if is_zero(&column.v) || is_zero(&column.w) {
+        let round_off = resolution.max(f64::EPSILON * norm(&now.x_tilde));
+        if norm(&column.v) <= round_off || norm(&column.w) <= round_off {
             return vec![DroppedColumn { steps_ago: 0, column: 0, reason: DropReason::NoChange }];
         }
         self.columns.push(column);
@@ -214,10 +256,6 @@ fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     result
 }
 
-fn is_zero(values: &[f64]) -> bool {
-    values.iter().all(|&value| value == 0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -227,7 +265,7 @@ mod tests {
         let mut dropped = Vec::new();
         for x in iterates {
             let r = [3.0 - 2.0 * x[0], 5.0 - 3.0 * x[1]];
-            dropped.extend(secants.observe(x, &r, &[]));
+            dropped.extend(secants.observe(x, &r, &[], &Answer::default()));
         }
         dropped
     }
@@ -275,6 +313,48 @@ mod tests {
         let frozen = DroppedColumn { steps_ago: 0, column: 0, reason: DropReason::NoChange };
         assert_eq!(dropped, [frozen]);
         assert_eq!(secants.len(), 1);
+    }
+
+    const UNANSWERED: Answer = Answer { answered: false, resolution: 0.0 };
+
+    #[test]
+    fn an_iterate_without_an_answer_makes_no_column_and_x_waits_for_one() {
+        let mut secants = Secants::new(Filter::None);
+        observe_all(&mut secants, &[[0.0, 0.0]]);
+        // The input moved, the output did not: it belongs to the one before.
+        let dropped = secants.observe(&[1.0, 1.0], &[2.0, 4.0], &[], &UNANSWERED);
+        assert_eq!(dropped, [DroppedColumn { steps_ago: 0, column: 0, reason: DropReason::NoAnswer }]);
+        assert!(secants.waits());
+        // The same input, answered now: no difference of inputs, no column.
+        assert!(observe_all(&mut secants, &[[1.0, 1.0]]).is_empty());
+        assert_eq!((secants.len(), secants.waits()), (0, false));
+        observe_all(&mut secants, &[[1.0, 2.0]]);
+        let column = &secants.columns().all[0];
+        assert_eq!((&column.v, &column.w), (&vec![0.0, -3.0], &vec![0.0, -2.0]));
+    }
+
+    #[test]
+    fn x_waits_once_and_never_in_the_first_iteration() {
+        let mut secants = Secants::new(Filter::None);
+        let waits = [(); 5].map(|()| {
+            secants.observe(&[0.0], &[1.0], &[], &UNANSWERED);
+            secants.waits()
+        });
+        assert_eq!(waits, [false, true, false, true, false]);
+        assert!(!secants.at_first_iteration());
+    }
+
+    #[test]
+    fn differences_of_round_off_are_no_columns() {
+        let no_change = [DroppedColumn { steps_ago: 0, column: 0, reason: DropReason::NoChange }];
+        for (resolution, step, expected) in [(0.0, 1e-3, 1), (1e-2, 1e-3, 0), (0.0, 1e-16, 0)] {
+            let mut secants = Secants::new(Filter::None);
+            let answer = Answer { answered: true, resolution };
+            secants.observe(&[1.0], &[1.0], &[], &answer);
+            let dropped = secants.observe(&[1.0 + 2.0 * step], &[1.0 - step], &[], &answer);
+            assert_eq!(secants.len(), expected, "{resolution} {step}");
+            assert_eq!(dropped == no_change, expected == 0);
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Interface quasi-Newton with a least-squares model of the inverse Jacobian.
 
 use super::history::{Columns, Secants};
-use super::{Accelerator, AcceleratorState, Proposal, QuasiNewton, relax};
+use super::{Accelerator, AcceleratorState, Answer, DroppedColumn, Proposal, QuasiNewton, relax};
 use crate::error::SetupError;
 
 /// IQN-ILS (Degroote, Bathe, Vierendeels 2009): `c = argmin |V c + r|`, `x <- x_tilde + W c`.
@@ -41,25 +41,30 @@ impl IqnIls {
 }
 
 impl Accelerator for IqnIls {
-    fn propose(&mut self, x: &mut [f64], r: &[f64]) -> Proposal {
+    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: &Answer) -> Proposal {
         let first = self.secants.at_first_iteration();
         self.apply_initial_jacobian(r);
-        let dropped = self.secants.observe(x, r, &self.b);
+        let dropped = self.secants.observe(x, r, &self.b, answer);
         if self.secants.len() == 0 || (first && self.settings.relax_first_iteration) {
+            self.secants.move_on();
             return relax(self.settings.omega_0, x, r, dropped);
         }
-        self.secants.update(x, r, &self.b);
+        if !self.secants.waits() {
+            self.secants.update(x, r, &self.b);
+        }
         Proposal { omega: None, columns: self.secants.len(), dropped }
     }
 
-    fn step_converged(&mut self, x: &[f64], r: &[f64]) {
+    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: &Answer) -> Vec<DroppedColumn> {
+        let mut dropped = Vec::new();
         if self.settings.keep_last_differences {
             self.apply_initial_jacobian(r);
-            self.secants.observe(x, r, &self.b);
+            dropped = self.secants.observe(x, r, &self.b, answer);
         }
         self.committed.clone_from(self.secants.columns());
         self.committed.end_step(self.settings.history);
         self.secants.start_step(self.committed.clone());
+        dropped
     }
 
     fn step_failed(&mut self) {

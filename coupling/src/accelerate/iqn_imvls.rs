@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use serde::{Deserialize, Serialize};
 
 use super::history::{Columns, Secants};
-use super::{Accelerator, AcceleratorState, Proposal, QuasiNewton, relax};
+use super::{Accelerator, AcceleratorState, Answer, DroppedColumn, Proposal, QuasiNewton, relax};
 use crate::error::SetupError;
 use crate::vector::{add_scaled, dot};
 
@@ -98,23 +98,27 @@ impl IqnImvls {
 }
 
 impl Accelerator for IqnImvls {
-    fn propose(&mut self, x: &mut [f64], r: &[f64]) -> Proposal {
+    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: &Answer) -> Proposal {
         let first = self.secants.at_first_iteration();
         self.apply_previous_jacobian(r);
-        let dropped = self.secants.observe(x, r, &self.b);
+        let dropped = self.secants.observe(x, r, &self.b, answer);
         let nothing_known = self.past.is_empty() && self.secants.len() == 0;
         if nothing_known || (first && self.settings.relax_first_iteration) {
+            self.secants.move_on();
             return relax(self.settings.omega_0, x, r, dropped);
         }
-        self.secants.update(x, r, &self.b);
+        if !self.secants.waits() {
+            self.secants.update(x, r, &self.b);
+        }
         let past: usize = self.past.iter().map(|step| step.q.len()).sum();
         Proposal { omega: None, columns: self.secants.len() + past, dropped }
     }
 
-    fn step_converged(&mut self, x: &[f64], r: &[f64]) {
+    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: &Answer) -> Vec<DroppedColumn> {
+        let mut dropped = Vec::new();
         if self.settings.keep_last_differences {
             self.apply_previous_jacobian(r);
-            self.secants.observe(x, r, &self.b);
+            dropped = self.secants.observe(x, r, &self.b, answer);
         }
         if self.secants.len() > 0 {
             self.past.push_front(StepInverse::new(&self.secants));
@@ -123,6 +127,7 @@ impl Accelerator for IqnImvls {
             self.past.truncate(steps);
         }
         self.secants.start_step(Columns::new());
+        dropped
     }
 
     fn step_failed(&mut self) {

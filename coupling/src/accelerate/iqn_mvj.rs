@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::history::{Columns, Secants};
-use super::{Accelerator, AcceleratorState, Proposal, QuasiNewton, relax};
+use super::{Accelerator, AcceleratorState, Answer, DroppedColumn, Proposal, QuasiNewton, relax};
 use crate::error::SetupError;
 use crate::vector::dot;
 
@@ -105,27 +105,32 @@ fn update(jacobian: &mut Vec<f64>, unseen: f64, secants: &Secants, size: usize) 
 }
 
 impl Accelerator for IqnMvj {
-    fn propose(&mut self, x: &mut [f64], r: &[f64]) -> Proposal {
+    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: &Answer) -> Proposal {
         let first = self.secants.at_first_iteration();
         self.apply_previous_jacobian(r);
-        let dropped = self.secants.observe(x, r, &self.b);
+        let dropped = self.secants.observe(x, r, &self.b, answer);
         let nothing_known = self.jacobian.is_empty() && self.secants.len() == 0;
         if nothing_known || (first && self.settings.relax_first_iteration) {
+            self.secants.move_on();
             return relax(self.settings.omega_0, x, r, dropped);
         }
-        self.secants.update(x, r, &self.b);
+        if !self.secants.waits() {
+            self.secants.update(x, r, &self.b);
+        }
         Proposal { omega: None, columns: self.secants.len(), dropped }
     }
 
-    fn step_converged(&mut self, x: &[f64], r: &[f64]) {
+    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: &Answer) -> Vec<DroppedColumn> {
+        let mut dropped = Vec::new();
         if self.settings.keep_last_differences {
             self.apply_previous_jacobian(r);
-            self.secants.observe(x, r, &self.b);
+            dropped = self.secants.observe(x, r, &self.b, answer);
         }
         if self.secants.len() > 0 && self.settings.history != Some(0) {
             self.learn();
         }
         self.secants.start_step(Columns::new());
+        dropped
     }
 
     fn step_failed(&mut self) {

@@ -4,7 +4,8 @@ use partita_coupling::conformance::{ParticipantCheck, check_accelerator, check_p
 use partita_coupling::models::tank::Tank;
 use partita_coupling::models::tube::Tube;
 use partita_coupling::{
-    Accelerator, AcceleratorState, Effort, NewtonLimit, ParticipantError, Policy, Proposal, SetupError, Step,
+    Accelerator, AcceleratorState, Answer, DroppedColumn, Effort, NewtonLimit, ParticipantError, Policy,
+    Proposal, SetupError, Step,
 };
 
 use crate::support::{Spoiled, all_accelerations, fixed, imvls};
@@ -114,15 +115,15 @@ struct Faulty {
 }
 
 impl Accelerator for Faulty {
-    fn propose(&mut self, x: &mut [f64], r: &[f64]) -> Proposal {
-        self.inner.propose(x, r)
+    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: &Answer) -> Proposal {
+        self.inner.propose(x, r, answer)
     }
-    fn step_converged(&mut self, x: &[f64], r: &[f64]) {
-        self.inner.step_converged(x, r);
+    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: &Answer) -> Vec<DroppedColumn> {
+        self.inner.step_converged(x, r, answer)
     }
     fn step_failed(&mut self) {
         if self.forgets_to_forget {
-            self.inner.step_converged(&[0.0; 6], &[0.0; 6]);
+            self.inner.step_converged(&[0.0; 6], &[0.0; 6], &Answer::default());
         } else {
             self.inner.step_failed();
         }

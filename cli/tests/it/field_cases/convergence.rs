@@ -6,6 +6,7 @@ mod lid;
 mod outlets;
 mod rest;
 mod resume;
+mod secants;
 mod slender;
 mod stall;
 mod times;

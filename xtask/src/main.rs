@@ -65,7 +65,7 @@ Tasks:
   stability [MAP]...     run the maps of what converges, compare with docs/data/stability_*.csv
     --mode MODE          check (default), write: keep the tables, write docs/stability.md and its pictures, or page:
                          run nothing, write page and pictures from the tables
-  infer                  search the values that the paper does not give, as paper/inference.md says; options
+  infer                  how far the counts depend on what the paper does not give (paper/inference.md); options
                          --mode, --jobs and --fresh as above
   sensitivity            judge the claims on cases with other values, write paper/results/sensitivity.csv
   beyond                 run tables 1 and 2 with quadratic convergence, write docs/beyond-the-paper.md

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::csv::Csv;
 use crate::infer::claim_words;
-use crate::infer::space::{Choice, thickness, viscosity, young};
+use crate::infer::neighbours::{Choice, thickness, viscosity, young};
 use crate::options::{Mode, Options};
 use crate::reproduce::case::Case;
 use crate::reproduce::claims::CLAIMS;

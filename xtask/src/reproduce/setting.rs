@@ -54,6 +54,11 @@ impl Limits {
     /// Every call to convergence.
     pub(crate) const UNLIMITED: Self = Self { fluid: Limit::ToConvergence, structure: Limit::ToConvergence };
 
+    /// At most so many iterations a call.
+    pub(crate) const fn at_most(fluid: usize, structure: usize) -> Self {
+        Self { fluid: Limit::AtMost(fluid), structure: Limit::AtMost(structure) }
+    }
+
     /// The same limits from their spelling.
     #[cfg(test)]
     pub(crate) fn of(fluid: &str, structure: &str) -> Self {

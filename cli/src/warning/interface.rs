@@ -61,6 +61,9 @@ pub(super) fn check(
     }
 }
 
+/// Ratios closer than this are one, up to round-off.
+const SAME: f64 = 1e-9;
+
 /// The facet that is the longest beside its element; the first of several.
 fn coarsest(fluid: &FluidSolver<2>, structure: &StructureSolver<2>) -> Option<Coarsest> {
     let elements = structure.space().boundary_elements(&structure.model().wetted);
@@ -73,7 +76,7 @@ fn coarsest(fluid: &FluidSolver<2>, structure: &StructureSolver<2>) -> Option<Co
         Some(Coarsest { facet: distance(&a, &b), element: distance(&nearest[0], &nearest[1]), place })
     };
     let all = fluid.interface_facets().filter_map(|facet| of_facet(facet.nodes.map(|node| points[node])));
-    all.reduce(|best, next| if next.ratio() > best.ratio() { next } else { best })
+    all.reduce(|best, next| if next.ratio() > (1.0 + SAME) * best.ratio() { next } else { best })
 }
 
 /// Distance of a point from the line between two others.

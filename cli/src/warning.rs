@@ -104,10 +104,9 @@ fn in_time(found: &mut Found<'_>, run: &Run) {
     if let (Some(fluid), Some(coupling), Some(of_fluid)) =
         (&scene.fluid, &scene.coupling, run.first().field())
         && let Some(scheme) = added_mass::scheme(fluid)
+        && let Some(ratio) = added_mass::ratio(found, (of_fluid, solver), scheme, coupling, &mode)
     {
-        if let Some(ratio) = added_mass::ratio(found, (of_fluid, solver), scheme, coupling, &mode) {
-            added_mass::check(found, coupling, ratio);
-        }
+        added_mass::check(found, coupling, ratio);
     }
 }
 

@@ -151,7 +151,7 @@ impl<const D: usize> FluidSolver<D> {
     /// The facets of all interface groups, group by group; their nodes are numbered as in the mesh.
     pub fn interface_facets(&self) -> impl Iterator<Item = &Facet<D>> {
         let groups = self.model.boundary.iter().filter(|(_, condition)| condition.is_interface());
-        groups.flat_map(|(name, _)| &self.mesh.group(name).expect("a checked group").facets)
+        groups.filter_map(|(name, _)| self.mesh.group(name)).flat_map(|group| &group.facets)
     }
 
     /// The reference mesh.

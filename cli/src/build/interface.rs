@@ -10,7 +10,7 @@ use sprs::TriMat;
 use super::BuildError;
 use crate::scene::schema;
 
-/// Gauss points beyond the degree of the structure: R_a times a linear multiplier is exact on straight elements with one more,
+/// Gauss points beyond the degree of the structure: `R_a` times a linear multiplier is exact on straight elements with one more,
 /// the rest is for rational and unevenly stretched ones.
 const MORE_POINTS: usize = 3;
 
@@ -95,3 +95,6 @@ fn extent(points: &[[f64; 2]]) -> f64 {
     };
     side(0).hypot(side(1))
 }
+
+#[cfg(test)]
+mod tests;

@@ -108,7 +108,9 @@ impl<const D: usize> Mortar<D> {
         let mut masses = vec![0.0; self.points.len()];
         for facet in &self.facets {
             let half = 0.5 * self.length(facet);
-            facet.iter().for_each(|&i| masses[i] += half);
+            for &i in facet {
+                masses[i] += half;
+            }
         }
         masses
     }
@@ -195,7 +197,9 @@ impl<const D: usize> Mortar<D> {
 /// Adds a multiple of a row.
 fn add(sum: &mut BTreeMap<usize, f64>, factor: f64, row: &Row) {
     if factor != 0.0 {
-        row.iter().for_each(|&(a, weight)| *sum.entry(a).or_default() += factor * weight);
+        for &(a, weight) in row {
+            *sum.entry(a).or_default() += factor * weight;
+        }
     }
 }
 

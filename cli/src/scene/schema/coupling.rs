@@ -63,17 +63,17 @@ pub enum Direction {
     OneWay,
 }
 
-/// `coupling.transfer`: the operator H, d_f = H d for displacements of the structure at the fluid's nodes i and F = H^T f
+/// `coupling.transfer`: the operator H, `d_f = H d` for displacements of the structure at the fluid's nodes i and `F = H^T f`
 /// for loads. Either keeps total force and virtual work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Transfer {
-    /// H_ia = R_a(x_i): the structure's shape functions at the fluid's node. The load is a trapezoidal rule: where the fluid's
+    /// `H_ia = R_a(x_i)`: the structure's shape functions at the fluid's node. The load is a trapezoidal rule: where the fluid's
     /// edges are not much shorter than the structure's elements, H^T f acts like point loads.
     Interpolation,
-    /// H_ia = (integral of psi_i R_a) / (integral of N_i): equal displacements in the mean, against multipliers psi_i dual to the
-    /// fluid's linear shape functions N_i. The load of a uniform pressure is the consistent one for any two resolutions. Ends and
-    /// corners are interpolated.
+    /// `H_ia = (integral(psi_i R_a) - sum_e h_e/2 R_a(x_e)) / integral(N_i)`: equal displacements in the mean, against multipliers
+    /// `psi_i` dual to the fluid's linear shape functions `N_i`. The load of a uniform pressure is the consistent one for any two
+    /// resolutions. Ends and corners e, at a distance of `h_e`, are interpolated. See the theory page.
     Mortar,
 }
 

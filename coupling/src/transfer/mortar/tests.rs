@@ -10,7 +10,7 @@ use super::*;
 const RULE: [(f64, f64); 3] =
     [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 
-/// Piecewise linear functions between `nodes` of a line, at x: hats, as the second field's R_a.
+/// Piecewise linear functions between `nodes` of a line, at x: hats, as the second field's `R_a`.
 fn hats(nodes: &[f64], x: f64) -> Row {
     let k = nodes[1..nodes.len() - 1].partition_point(|node| *node <= x);
     let s = (x - nodes[k]) / (nodes[k + 1] - nodes[k]);
@@ -87,7 +87,9 @@ fn applied(rows: &[Row], values: &[f64]) -> Vec<f64> {
 fn returned(rows: &[Row], forces: &[f64], count: usize) -> Vec<f64> {
     let mut loads = vec![0.0; count];
     for (row, force) in rows.iter().zip(forces) {
-        row.iter().for_each(|&(a, weight)| loads[a] += weight * force);
+        for &(a, weight) in row {
+            loads[a] += weight * force;
+        }
     }
     loads
 }
@@ -153,7 +155,7 @@ fn ring(count: usize, start: f64) -> (Mortar<2>, impl Fn(&[f64; 2]) -> Row) {
     let mortar = Mortar::new(points, facets, &vec![false; count]);
     let row = |[x, y]: &[f64; 2]| {
         let at = y.atan2(*x).rem_euclid(TAU) / TAU * 12.0;
-        let k = (at as usize).min(11);
+        let k = (1_u32..12).filter(|k| f64::from(*k) <= at).count();
         vec![(k, 1.0 - (at - k as f64)), ((k + 1) % 12, at - k as f64)]
     };
     (mortar, row)
@@ -175,7 +177,9 @@ fn a_closed_ring_has_no_ends() {
         let mut integrals = vec![0.0; 12];
         for (samples, sampled) in samples.iter().zip(&sampled) {
             for ((_, weight), row) in samples.rule.iter().zip(sampled) {
-                row.iter().for_each(|(a, value)| integrals[*a] += weight * value);
+                for (a, value) in row {
+                    integrals[*a] += weight * value;
+                }
             }
         }
         close(&returned(&rows, &mortar.masses(), 12), &integrals);

@@ -65,8 +65,7 @@ pub fn run_on(Resolved { scene, shapes, .. }: &Resolved, threads: usize) -> Resu
     let structure = structure.map(|(scene, space)| structure::solver(scene, space)).transpose()?;
     let (settings, transfers) = match (&scene.coupling, &fluid, &structure) {
         (Some(coupling), Some(fluid), Some(structure)) => {
-            let tolerance = coupling.projection_tolerance.get();
-            (coupling::settings(coupling), vec![transfer(fluid, structure, tolerance)?])
+            (coupling::settings(coupling), vec![transfer(fluid, structure, coupling)?])
         }
         _ => (coupling::one_call(), Vec::<Box<dyn Transfer>>::new()),
     };

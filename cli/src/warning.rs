@@ -6,6 +6,7 @@
 mod added_mass;
 mod flow;
 mod formulas;
+mod interface;
 mod kind;
 mod motion;
 mod scales;
@@ -78,9 +79,13 @@ pub fn of(resolved: &Resolved, run: &Run) -> Vec<Warning> {
     }
     if let (Some(fluid), Some(of_fluid), Some(of_structure)) =
         (&resolved.scene.fluid, run.first().field(), run.second().field())
-        && resolved.scene.moves_the_interface()
     {
-        support::corners(&mut found, fluid, of_fluid, of_structure);
+        if let Some(coupling) = &resolved.scene.coupling {
+            interface::check(&mut found, coupling, of_fluid, of_structure);
+        }
+        if resolved.scene.moves_the_interface() {
+            support::corners(&mut found, fluid, of_fluid, of_structure);
+        }
     }
     in_time(&mut found, run);
     formulas::check(&mut found);
@@ -99,11 +104,9 @@ fn in_time(found: &mut Found<'_>, run: &Run) {
     if let (Some(fluid), Some(coupling), Some(of_fluid)) =
         (&scene.fluid, &scene.coupling, run.first().field())
         && let Some(scheme) = added_mass::scheme(fluid)
+        && let Some(ratio) = added_mass::ratio(found, (of_fluid, solver), scheme, coupling, &mode)
     {
-        let tolerance = coupling.projection_tolerance.get();
-        if let Some(ratio) = added_mass::ratio(found, (of_fluid, solver), scheme, tolerance, &mode) {
-            added_mass::check(found, coupling, ratio);
-        }
+        added_mass::check(found, coupling, ratio);
     }
 }
 

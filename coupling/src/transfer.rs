@@ -2,7 +2,10 @@
 //!
 //! The operator `H` maps displacements of the second participant's points to those of the first one's,
 //! `d = H x`; loads return by its transpose, `F = H^T f`. The transpose keeps the virtual work,
-//! `f . (H delta) = (H^T f) . delta`; rows that sum to one keep the total force (Hosters et al. 2018).
+//! `f . (H delta) = (H^T f) . delta`; rows that sum to one keep the total force (Hosters et al. 2018). [`mortar`] builds rows
+//! that keep the load of a constant traction, too.
+
+pub mod mortar;
 
 use sprs::{CsMat, TriMat};
 

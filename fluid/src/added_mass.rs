@@ -64,14 +64,12 @@ impl<const D: usize> FluidSolver<D> {
             std::array::from_fn(|c| phi[k * D + c])
         };
         let mut flux = vec![0.0; self.mesh.points().len()];
-        for (group, _) in self.model.boundary.iter().filter(|(_, condition)| condition.is_interface()) {
-            for facet in &self.mesh.group(group).expect("a checked group").facets {
-                let area = facet.area_vector(self.mesh.points());
-                let normal: [f64; D] = facet.nodes.map(|node| dot(&at(node), &area));
-                let sum: f64 = normal.iter().sum();
-                for (&node, own) in facet.nodes.iter().zip(normal) {
-                    flux[node] += (sum + own) / (D * (D + 1)) as f64;
-                }
+        for facet in self.interface_facets() {
+            let area = facet.area_vector(self.mesh.points());
+            let normal: [f64; D] = facet.nodes.map(|node| dot(&at(node), &area));
+            let sum: f64 = normal.iter().sum();
+            for (&node, own) in facet.nodes.iter().zip(normal) {
+                flux[node] += (sum + own) / (D * (D + 1)) as f64;
             }
         }
         flux

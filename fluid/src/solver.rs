@@ -1,6 +1,7 @@
 //! The fluid solver: what it is built from and what it shows.
 
 use partita_mesh::Mesh;
+use partita_mesh::facet::Facet;
 use partita_mesh::motion::{MeshMotion, MotionQuality};
 use partita_numerics::newton::FactorLog;
 use partita_numerics::phases::PhaseSeconds;
@@ -145,6 +146,12 @@ impl<const D: usize> FluidSolver<D> {
     #[must_use]
     pub fn interface_nodes(&self) -> &[usize] {
         &self.boundaries.interface
+    }
+
+    /// The facets of all interface groups, group by group; their nodes are numbered as in the mesh.
+    pub fn interface_facets(&self) -> impl Iterator<Item = &Facet<D>> {
+        let groups = self.model.boundary.iter().filter(|(_, condition)| condition.is_interface());
+        groups.filter_map(|(name, _)| self.mesh.group(name)).flat_map(|group| &group.facets)
     }
 
     /// The reference mesh.

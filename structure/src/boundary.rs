@@ -33,6 +33,27 @@ impl Boundary {
             Self::Groups(groups) => groups.is_empty(),
         }
     }
+
+    /// Number of parts.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Sides(sides) => sides.len(),
+            Self::Groups(groups) => groups.len(),
+        }
+    }
+
+    /// The parts with these indices.
+    ///
+    /// # Panics
+    /// When an index is not below [`len`](Self::len).
+    #[must_use]
+    pub fn only(&self, indices: &[usize]) -> Self {
+        match self {
+            Self::Sides(sides) => Self::Sides(indices.iter().map(|&k| sides[k]).collect()),
+            Self::Groups(groups) => Self::Groups(indices.iter().map(|&k| groups[k].clone()).collect()),
+        }
+    }
 }
 
 impl Default for Boundary {

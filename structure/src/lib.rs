@@ -10,7 +10,8 @@
 //! | [`material`] | stress and tangent from the displacement gradient |
 //! | [`kernel`] | the element: internal force, tangent, mass, energies |
 //! | [`space`], [`patch`], [`elements`] | geometry and displacement space; shape functions tabulated once |
-//! | [`boundary`], [`interface`] | names of its parts; how points outside hang on it |
+//! | [`boundary`], `wetted` | names of its parts; their elements and ends |
+//! | [`interface`] | interpolation weights of points outside |
 //! | [`support`], [`rigid`] | what is held; pieces that still move without deforming |
 //! | `assembly`, `factor` | global forces and tangent; its symmetric factor |
 //! | [`load`] | body force, interface forces |
@@ -45,11 +46,12 @@ mod modes;
 mod newton;
 mod probe;
 mod tensor;
+mod wetted;
 mod worst;
 
 pub use boundary::Boundary;
 pub use error::StructureError;
-pub use interface::InterfaceRow;
+pub use interface::{InterfaceRow, Segment};
 pub use load::{BodyForce, VectorField};
 pub use material::{Law, Material, MaterialError, Plane, Response, ResponseError};
 pub use model::{LineSearch, Part, Rayleigh, StructureModel, StructureSettings};

@@ -1,37 +1,88 @@
 //! Where fluid and structure meet: the operator H between their interface points.
 
+use partita_coupling::transfer::mortar::{Mortar, Row};
 use partita_coupling::{MatrixTransfer, Transfer};
 use partita_fluid::FluidSolver;
-use partita_structure::StructureSolver;
+use partita_numerics::gauss;
+use partita_structure::{InterfaceRow, Segment, StructureError, StructureSolver};
 use sprs::TriMat;
 
 use super::BuildError;
+use crate::scene::schema;
 
-/// The transfer `d_f = H x`, `F = H^T f`, with the rows `R_a(xi_i)` of the fluid's interface nodes.
+/// Gauss points beyond the degree of the structure: `R_a` times a linear multiplier is exact on straight elements with one more,
+/// the rest is for rational and unevenly stretched ones.
+const MORE_POINTS: usize = 3;
+
+/// The transfer `d_f = H x`, `F = H^T f`, with the rows of the fluid's interface nodes that the scene asks for: interpolation
+/// `R_a(xi_i)`, or [`mortar`](partita_coupling::transfer::mortar).
 ///
 /// Columns of nodes that do not move at all are left out: their displacement is zero, and what the fluid puts on them goes
 /// into the support. A fluid node that lies on such nodes alone has an empty row. A node that moves in one direction has its
 /// column; the component that is held stays zero, and its force goes into the support.
 ///
 /// # Errors
-/// When a fluid node lies farther from the wetted sides than `tolerance` times the interface's extent.
+/// When a fluid node lies farther from the wetted sides than the scene's tolerance times the interface's extent.
 pub(crate) fn transfer(
     fluid: &FluidSolver<2>,
     structure: &StructureSolver<2>,
-    tolerance: f64,
+    coupling: &schema::Coupling,
 ) -> Result<Box<dyn Transfer>, BuildError> {
     let points: Vec<[f64; 2]> =
         fluid.interface_nodes().iter().map(|&node| fluid.mesh().points()[node]).collect();
-    let rows = structure.interface_rows(&points, tolerance * extent(&points))?;
-    let mut weights = TriMat::new((points.len(), structure.interface_points().len()));
+    let tolerance = coupling.projection_tolerance.get() * extent(&points);
+    let nodal = rows(structure.interface_rows(&points, tolerance)?);
+    let count = points.len();
+    let rows = match coupling.transfer {
+        schema::Transfer::Interpolation => nodal,
+        schema::Transfer::Mortar => mortar(points, facets(fluid), nodal, structure, tolerance)?,
+    };
+    let mut weights = TriMat::new((count, structure.interface_points().len()));
     for (row, entries) in rows.iter().enumerate() {
-        for (node, &weight) in entries.nodes.iter().zip(&entries.weights) {
+        for (node, weight) in entries {
             if let Ok(column) = structure.interface_points().binary_search(node) {
-                weights.add_triplet(row, column, weight);
+                weights.add_triplet(row, column, *weight);
             }
         }
     }
     Ok(Box::new(MatrixTransfer::new(weights.to_csr(), 2)))
+}
+
+/// The rows of the mortar method over all nodes of the structure.
+fn mortar(
+    points: Vec<[f64; 2]>,
+    facets: Vec<[usize; 2]>,
+    nodal: Vec<Row>,
+    structure: &StructureSolver<2>,
+    tolerance: f64,
+) -> Result<Vec<Row>, StructureError> {
+    let (space, wetted) = (structure.space(), &structure.model().wetted);
+    let corners = space.boundary_ends(wetted);
+    let at_corner = |point: &[f64; 2]| {
+        corners.iter().any(|(_, corner)| (corner[0] - point[0]).hypot(corner[1] - point[1]) <= tolerance)
+    };
+    let is_corner: Vec<bool> = points.iter().map(at_corner).collect();
+    let mortar = Mortar::new(points, facets, &is_corner);
+    let breakpoints: Vec<[f64; 2]> = space.boundary_elements(wetted).into_iter().flatten().collect();
+    let samples = mortar.samples(&breakpoints, &gauss::line(space.boundary_degree(wetted) + MORE_POINTS));
+    let segments: Vec<_> = samples
+        .iter()
+        .map(|samples| Segment { ends: samples.ends, points: samples.points.clone() })
+        .collect();
+    let sampled: Vec<Vec<Row>> =
+        structure.segment_rows(&segments, tolerance)?.into_iter().map(rows).collect();
+    Ok(mortar.rows(nodal, &samples, &sampled))
+}
+
+/// Weights by the nodes of the structure.
+fn rows(rows: Vec<InterfaceRow>) -> Vec<Row> {
+    rows.into_iter().map(|row| row.nodes.into_iter().zip(row.weights).collect()).collect()
+}
+
+/// The facets of the fluid's interface by the numbers of its interface nodes.
+fn facets(fluid: &FluidSolver<2>) -> Vec<[usize; 2]> {
+    let number = |node: usize| fluid.interface_nodes().binary_search(&node).expect("a node of the interface");
+    fluid.interface_facets().map(|facet| facet.nodes.map(number)).collect()
 }
 
 /// Diagonal of the bounding box \[m\].
@@ -44,3 +95,6 @@ fn extent(points: &[[f64; 2]]) -> f64 {
     };
     side(0).hypot(side(1))
 }
+
+#[cfg(test)]
+mod tests;

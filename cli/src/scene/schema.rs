@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 
 pub use coupling::{
     Acceleration, Convergence, Coupling, Direction, Filter, NewtonPolicy, OnLimit, Predictor, QuasiNewton,
+    Transfer,
 };
 pub use file::FileName;
 pub use fluid::{

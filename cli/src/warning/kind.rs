@@ -9,6 +9,8 @@ pub enum Kind {
     OpenSeam,
     /// The structure pulls the corner of a fixed wall along.
     DraggedCorner,
+    /// The fluid's interface is coarser than the structure's.
+    CoarseInterface,
     /// A wall jumps, or starts at full speed.
     MotionJump,
     /// The time scheme of a coupled structure keeps the highest frequencies.
@@ -35,10 +37,11 @@ pub enum Kind {
 
 impl Kind {
     /// All of them, in the order of the docs.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::FreeStructure,
         Self::OpenSeam,
         Self::DraggedCorner,
+        Self::CoarseInterface,
         Self::MotionJump,
         Self::UndampedStructure,
         Self::LongStep,
@@ -59,6 +62,7 @@ impl Kind {
             Self::FreeStructure => "free_structure",
             Self::OpenSeam => "open_seam",
             Self::DraggedCorner => "dragged_corner",
+            Self::CoarseInterface => "coarse_interface",
             Self::MotionJump => "motion_jump",
             Self::UndampedStructure => "undamped_structure",
             Self::LongStep => "long_step",
@@ -83,6 +87,10 @@ impl Kind {
             }
             Self::DraggedCorner => {
                 "A fixed wall of the fluid ends at the interface, and the structure moves that corner off the wall."
+            }
+            Self::CoarseInterface => {
+                "An edge of the fluid's interface is longer than 1.5 elements of the structure there, with which \
+                 `transfer = \"interpolation\"` acts like point loads; with `\"mortar\"`, longer than 3."
             }
             Self::MotionJump => {
                 "A prescribed wall motion is not zero at t = 0, or starts at full speed in a fluid at rest."

@@ -19,6 +19,11 @@ mesh.rectangle = { size = [1.0, 1.0], divisions = [4, 4] }
 boundary = { left = { velocity = [0, 0] }, right = "do_nothing", bottom = "no_slip", top = { wall_motion = [0, 0] } }
 "#;
 
+/// The sound scene with an element of the structure for each edge of the fluid at the interface.
+fn matching() -> String {
+    SOUND.replace("elements = [60, 1]", &format!("elements = [{EDGES}, 1]"))
+}
+
 /// Names of the open warnings of `check`, in their order.
 fn names(scene: &str, overrides: &[&str]) -> Vec<String> {
     let (_guard, folder) = folder_with(scene);
@@ -40,11 +45,19 @@ fn raises(kind: Kind, scene: &str, raising: &[&str], neighbour: &[&str]) {
     assert!(found.iter().all(|name| name != kind.name()), "{neighbour:?} raises {found:?}");
 }
 
+/// Edges of the fluid along the interface of the sound scene.
+const EDGES: usize = 10;
+
+/// That many elements of its structure along them.
+fn along(elements: usize) -> String {
+    format!("structure.geometry.rectangle.elements=[{elements}, 1]")
+}
+
 const RADIUS: &str = "structure.time_scheme.generalized_alpha.spectral_radius=";
 
 #[test]
 fn the_sound_scene_raises_none() {
-    assert_eq!(names(SOUND, &[&format!("{RADIUS}0.5")]), Vec::<String>::new());
+    assert_eq!(names(&matching(), &[&format!("{RADIUS}0.5")]), Vec::<String>::new());
     assert_eq!(names(WALL, &[]), Vec::<String>::new());
 }
 
@@ -75,6 +88,20 @@ fn a_step_that_is_long_against_the_first_period() {
         SOUND,
         &["time.step=0.1"],
         &["time.step=0.1", "structure.time_scheme=quasi_static"],
+    );
+}
+
+#[test]
+fn a_fluid_coarser_than_the_structure() {
+    let mortar = "coupling.transfer=mortar";
+    raises(Kind::CoarseInterface, SOUND, &[&along(2 * EDGES)], &[&along(EDGES)]);
+    raises(Kind::CoarseInterface, SOUND, &[&along(2 * EDGES)], &[&along(2 * EDGES), mortar]);
+    raises(Kind::CoarseInterface, SOUND, &[&along(4 * EDGES), mortar], &[&along(2 * EDGES), mortar]);
+    raises(
+        Kind::CoarseInterface,
+        SOUND,
+        &[&along(2 * EDGES), "coupling.direction=one_way"],
+        &[&along(EDGES), "coupling.direction=one_way"],
     );
 }
 
@@ -222,7 +249,7 @@ fn a_formula_that_is_not_finite_where_the_run_uses_it_is_an_error() {
 
 #[test]
 fn warnings_are_lines_with_place_reason_and_remedy() {
-    let (_guard, folder) = folder_with(SOUND);
+    let (_guard, folder) = folder_with(&matching());
     let set = format!("{RADIUS}1");
     let check = partita(&folder, &["check", "case.toml", "--set", &set]);
     assert_eq!(check.code, 0);
@@ -235,7 +262,7 @@ fn warnings_are_lines_with_place_reason_and_remedy() {
 
 #[test]
 fn denied_warnings_end_before_anything_is_written() {
-    let (_guard, folder) = folder_with(SOUND);
+    let (_guard, folder) = folder_with(&matching());
     let set = format!("{RADIUS}1");
     for command in ["check", "run"] {
         let outcome = partita(&folder, &[command, "case.toml", "--set", &set, "--deny-warnings"]);
@@ -247,7 +274,7 @@ fn denied_warnings_end_before_anything_is_written() {
 
 #[test]
 fn an_accepted_warning_is_not_denied_and_listed_with_its_reason() {
-    let scene = format!("{SOUND}\n[warnings.accept]\nundamped_structure = \"as the paper has it\"\n");
+    let scene = format!("{}\n[warnings.accept]\nundamped_structure = \"as the paper has it\"\n", matching());
     let (_guard, folder) = folder_with(&scene);
     let set = format!("{RADIUS}1");
     let outcome = partita(&folder, &["check", "case.toml", "--json", "--deny-warnings", "--set", &set]);

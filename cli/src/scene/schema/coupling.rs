@@ -26,6 +26,9 @@ pub struct Coupling {
     /// Largest distance of a fluid interface node from the structure, as part of the interface's extent. Default: 1e-6.
     #[serde(default = "projection_tolerance")]
     pub projection_tolerance: Positive,
+    /// How displacements and loads pass between meshes that do not match: `"interpolation"` or `"mortar"`.
+    #[serde(default)]
+    pub transfer: Transfer,
     /// First guess of a step's interface displacement: `"constant"` (default), `"linear"`, `"quadratic"`, `"cubic"`.
     #[serde(default)]
     pub predictor: Predictor,
@@ -56,8 +59,33 @@ pub enum Direction {
     #[default]
     TwoWay,
     /// Loads alone: each field is called once a step, to convergence, and the interface stands still for the fluid. Of
-    /// `[coupling]` only `projection_tolerance` counts.
+    /// `[coupling]` only `transfer` and `projection_tolerance` count.
     OneWay,
+}
+
+/// `coupling.transfer`: the operator H, `d_f = H d` for displacements of the structure at the fluid's nodes i and `F = H^T f`
+/// for loads. Either keeps total force and virtual work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Transfer {
+    /// `H_ia = R_a(x_i)`: the structure's shape functions at the fluid's node. The load is a trapezoidal rule: where the fluid's
+    /// edges are not much shorter than the structure's elements, H^T f acts like point loads.
+    Interpolation,
+    /// `H_ia = (integral(psi_i R_a) - sum_e h_e/2 R_a(x_e)) / integral(N_i)`: equal displacements in the mean, against multipliers
+    /// `psi_i` dual to the fluid's linear shape functions `N_i`. The load of a uniform pressure is the consistent one for any two
+    /// resolutions. Ends and corners e, at a distance of `h_e`, are interpolated. See the theory page.
+    Mortar,
+}
+
+impl Transfer {
+    /// What a scene gets that does not choose.
+    pub const DEFAULT: Self = Self::Interpolation;
+}
+
+impl Default for Transfer {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
 }
 
 /// `coupling.on_limit`.

@@ -3,6 +3,7 @@
 mod convergence;
 mod geometry;
 mod meshes;
+mod transfer;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,8 +1,6 @@
 //! The wetted parts of a structure, seen from the nodes of the fluid's interface.
 
-use std::collections::BTreeMap;
-
-use partita_iga::{Side, Spline};
+use partita_iga::Side;
 use partita_mesh::{SolidMesh, solid};
 use partita_structure::{Boundary, Patch, Space};
 
@@ -19,59 +17,31 @@ pub(super) struct Wetted {
 impl Wetted {
     /// `None` where a part is not known, which is told elsewhere.
     pub(super) fn new(space: &Space<2>, parts: &Boundary, nodes: &[[f64; 2]]) -> Option<Self> {
-        match (space, parts) {
-            (Space::Patch(patch), Boundary::Sides(sides)) => Self::of_patch(patch, sides, nodes),
-            (Space::Lagrange(mesh), Boundary::Groups(groups)) => Self::of_mesh(mesh, groups, nodes),
-            _ => None,
-        }
-    }
-
-    fn of_patch(patch: &Patch<2>, sides: &[Side], nodes: &[[f64; 2]]) -> Option<Self> {
-        let (patch, seams) = (patch.spline(), patch.seams());
-        if sides.iter().any(|side| seams.partner(*side).is_some()) {
-            return None;
-        }
-        let rows = partita_iga::transfer::rows(patch, sides, nodes, f64::INFINITY).ok()?;
-        let curves: Vec<_> = sides.iter().map(|&side| (side.to_string(), patch.side(side).0)).collect();
-        let open = sides
-            .iter()
-            .zip(&curves)
-            .filter(|(side, (_, curve))| !(seams.is_loop(**side) && is_smooth(curve)));
-        let ends = open
-            .map(|(_, curve)| curve)
-            .flat_map(|(name, curve)| curve.knots()[0].domain().map(|xi| (name.clone(), curve.point(&[xi]))));
-        Some(Self {
-            gaps: rows.into_iter().map(|row| (row.side.to_string(), row.distance)).collect(),
-            ends: ends.collect(),
-            places: curves.iter().flat_map(|(_, curve)| curve.bounding_box()).collect(),
-        })
-    }
-
-    /// A chain of edges ends in a node that belongs to one edge alone.
-    fn of_mesh(mesh: &SolidMesh<2>, groups: &[String], nodes: &[[f64; 2]]) -> Option<Self> {
-        let rows = solid::transfer::rows(mesh, groups, nodes, f64::INFINITY).ok()?;
-        let mut edges_at: BTreeMap<usize, (usize, &str)> = BTreeMap::new();
-        for group in groups.iter().filter_map(|name| mesh.group(name)) {
-            for node in group.edges.iter().flat_map(|edge| [edge[0], edge[1]]) {
-                edges_at.entry(node).or_insert((0, group.name.as_str())).0 += 1;
-            }
-        }
-        let place = |node: usize| mesh.points()[node];
-        let ends = edges_at.iter().filter(|(_, (edges, _))| *edges == 1);
-        Some(Self {
-            gaps: rows.into_iter().map(|row| (row.group, row.distance)).collect(),
-            ends: ends.map(|(&node, (_, name))| ((*name).to_owned(), place(node))).collect(),
-            places: edges_at.keys().map(|&node| place(node)).collect(),
-        })
+        let (gaps, places) = match (space, parts) {
+            (Space::Patch(patch), Boundary::Sides(sides)) => of_patch(patch, sides, nodes)?,
+            (Space::Lagrange(mesh), Boundary::Groups(groups)) => of_mesh(mesh, groups, nodes)?,
+            _ => return None,
+        };
+        Some(Self { gaps, ends: space.boundary_ends(parts), places })
     }
 }
 
-/// The sine of an angle below which two directions are one.
-const SMOOTH: f64 = 1e-3;
+/// The nearest part of each node with its distance, and points that span the parts.
+type Extent = (Vec<(String, f64)>, Vec<[f64; 2]>);
 
-/// Whether a closed curve has no corner where its ends meet: the fluid needs no node there.
-fn is_smooth(curve: &Spline<2>) -> bool {
-    let [a, b] = curve.knots()[0].domain().map(|xi| curve.tangent(&[xi], 0));
-    let lengths = a[0].hypot(a[1]) * b[0].hypot(b[1]);
-    a[0] * b[0] + a[1] * b[1] > 0.0 && (a[0] * b[1] - a[1] * b[0]).abs() <= SMOOTH * lengths
+fn of_patch(patch: &Patch<2>, sides: &[Side], nodes: &[[f64; 2]]) -> Option<Extent> {
+    let (patch, seams) = (patch.spline(), patch.seams());
+    if sides.iter().any(|side| seams.partner(*side).is_some()) {
+        return None;
+    }
+    let rows = partita_iga::transfer::rows(patch, sides, nodes, f64::INFINITY).ok()?;
+    let gaps = rows.into_iter().map(|row| (row.side.to_string(), row.distance)).collect();
+    Some((gaps, sides.iter().flat_map(|&side| patch.side(side).0.bounding_box()).collect()))
+}
+
+fn of_mesh(mesh: &SolidMesh<2>, groups: &[String], nodes: &[[f64; 2]]) -> Option<Extent> {
+    let rows = solid::transfer::rows(mesh, groups, nodes, f64::INFINITY).ok()?;
+    let gaps = rows.into_iter().map(|row| (row.group, row.distance)).collect();
+    let edges = groups.iter().filter_map(|name| mesh.group(name)).flat_map(|group| group.edges.iter());
+    Some((gaps, edges.flat_map(|edge| [edge[0], edge[1]]).map(|node| mesh.points()[node]).collect()))
 }

@@ -25,8 +25,8 @@ fn the_force_on_a_side_is_of_second_order_in_spite_of_its_corners() {
     const WIDTHS: [f64; 4] = [1.0 / 8.0, 1.0 / 16.0, 1.0 / 32.0, 1.0 / 64.0];
     for nu in [10.0, 0.05] {
         let (mut taken_apart, mut whole) = ([0.0; 4], [0.0; 4]);
-        for (k, width) in WIDTHS.iter().enumerate() {
-            let mut fluid = fluid(unit_square((1.0 / width).round() as usize), nu, TimeScheme::Steady);
+        for k in 0..4 {
+            let mut fluid = fluid(unit_square(8 << k), nu, TimeScheme::Steady);
             fluid.begin_step(1.0, 1.0).expect("a step");
             fluid.advance(Limit::ToConvergence).expect("convergence");
             taken_apart[k] = errors_of(fluid.force_on("left").expect("a side"));

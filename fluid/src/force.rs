@@ -10,9 +10,18 @@ impl<const D: usize> FluidSolver<D> {
         &self.assembly.residual
     }
 
-    /// Consistent nodal forces of the fluid **on** the structure at the
-    /// [`interface_nodes`](Self::interface_nodes), `point * D + c`: the residual of the last assembly with the
-    /// sign turned `[N/m in 2D, N in 3D]`.
+    /// Nodal forces of the fluid **on** the structure at the [`interface_nodes`](Self::interface_nodes), `point * D + c`
+    /// `[N/m in 2D, N in 3D]`: the residual of the last assembly with the sign turned, and at the ends of the interface, whose
+    /// nodes other boundaries hold as well, the part of it that acts on the interface:
+    ///
+    /// ```text
+    /// f_i = sum over the facets f of the interface at node i of (a_if + W_if (-R_i - sum_g a_ig))
+    /// a_if = int_f N_i (p n - mu (grad u + grad u^T) n)
+    /// ```
+    ///
+    /// where g runs over all facets at the node that hold its velocity, and the weights W, which sum to one, are the measures of
+    /// the facets. A slip wall holds, and gets, no more than its normal component. The parts on all boundaries together are
+    /// the residual again, and a linear pressure and a linear velocity give the exact traction of the interface.
     ///
     /// They belong to the iterate of that assembly, which a finished Newton loop leaves at the last iterate.
     ///
@@ -23,31 +32,36 @@ impl<const D: usize> FluidSolver<D> {
         let nodes = self.interface_nodes();
         assert_eq!(force.len(), nodes.len() * D, "interface forces have {D} entries a node");
         for (node, force) in nodes.iter().zip(force.chunks_exact_mut(D)) {
-            force.copy_from_slice(&self.force_at(*node));
+            force.copy_from_slice(&self.interface_force_at(*node));
         }
     }
 
     /// Force of the fluid on the boundary group of that name, from the last assembly `[N/m in 2D, N in 3D]`: the
-    /// sum of the consistent forces at its nodes, those it shares with neighbouring groups included. Nothing
+    /// sum of the nodal forces, taken apart as in [`output`](Self::output) at nodes that it shares with neighbouring groups. None
     /// for a name that is no group; zero where the group holds no velocity.
     #[must_use]
     pub fn force_on(&self, group: &str) -> Option<[f64; D]> {
         self.force_on_all(&[group])
     }
 
-    /// The same for several groups together. A node that they share counts once, so this is less than the sum over the
-    /// groups where they meet.
+    /// The same for several groups together: the sum of the forces on each of them, a group that is named twice counted once.
     #[must_use]
     pub fn force_on_all(&self, groups: &[impl AsRef<str>]) -> Option<[f64; D]> {
+        let mut asked = vec![false; self.mesh.groups().len()];
         let mut nodes = Vec::new();
         for group in groups {
-            nodes.extend(self.mesh.group_nodes(group.as_ref())?);
+            let name = group.as_ref();
+            let index = self.mesh.groups().iter().position(|group| group.name == name)?;
+            asked[index] = true;
+            if self.shared.holds(index) {
+                nodes.extend(self.mesh.groups()[index].facets.iter().flat_map(|facet| facet.nodes));
+            }
         }
         nodes.sort_unstable();
         nodes.dedup();
         let mut sum = [0.0; D];
         for node in nodes {
-            let force = self.force_at(node);
+            let force = self.force_at(node, |group| asked[group]);
             for i in 0..D {
                 sum[i] += force[i];
             }
@@ -55,7 +69,13 @@ impl<const D: usize> FluidSolver<D> {
         Some(sum)
     }
 
-    pub(crate) fn force_at(&self, node: usize) -> [f64; D] {
-        std::array::from_fn(|c| -self.assembly.residual[node * (D + 1) + c])
+    /// The force at a node of the interface on the interface alone.
+    pub(crate) fn interface_force_at(&self, node: usize) -> [f64; D] {
+        self.force_at(node, |group| self.shared.is_interface(group))
+    }
+
+    fn force_at(&self, node: usize, asked: impl Fn(usize) -> bool) -> [f64; D] {
+        let whole = || std::array::from_fn(|c| -self.assembly.residual[node * (D + 1) + c]);
+        self.shared.part_at(node, asked).unwrap_or_else(whole)
     }
 }

@@ -35,6 +35,7 @@ mod probe;
 mod residual;
 mod round_off;
 pub mod settings;
+mod shared;
 mod solver;
 pub mod stabilization;
 mod state;

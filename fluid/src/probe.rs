@@ -109,7 +109,7 @@ impl<const D: usize> FluidSolver<D> {
     /// sum over the interface nodes of f_{n+1} . (d_{n+1} - d_n)
     /// ```
     ///
-    /// with the consistent forces f of [`output`](Self::output). What the structure receives differs by the load
+    /// with the forces f of [`output`](Self::output). What the structure receives differs by the load
     /// that its time scheme takes within the step.
     #[must_use]
     pub fn interface_work(&self) -> f64 {
@@ -118,7 +118,7 @@ impl<const D: usize> FluidSolver<D> {
             None => (&self.committed.displacement, &self.committed.previous_displacement),
         };
         let work = |&node: &usize| -> f64 {
-            let force = self.force_at(node);
+            let force = self.interface_force_at(node);
             (0..D).map(|c| force[c] * (now[node * D + c] - before[node * D + c])).sum()
         };
         self.interface_nodes().iter().map(work).sum()

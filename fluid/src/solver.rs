@@ -13,6 +13,7 @@ use crate::error::FluidError;
 use crate::kernel::Flow;
 use crate::model::{BodyForce, FluidModel, InitialState};
 use crate::settings::{FluidSettings, Tangent};
+use crate::shared::SharedNodes;
 use crate::state::FluidState;
 use crate::trial::Trial;
 
@@ -59,6 +60,7 @@ pub struct FluidSolver<const D: usize> {
     pub(crate) model: FluidModel<D>,
     pub(crate) settings: FluidSettings,
     pub(crate) boundaries: Boundaries<D>,
+    pub(crate) shared: SharedNodes<D>,
     pub(crate) committed: FluidState,
     pub(crate) trial: Trial<D>,
     pub(crate) frames: Frames<D>,
@@ -114,6 +116,7 @@ impl<const D: usize> FluidSolver<D> {
             increment: vec![0.0; boundaries.prescribed.len()],
             phases: PhaseSeconds::default(),
             last_volume_defect: 0.0,
+            shared: SharedNodes::new(&mesh, &model),
             mesh,
             model,
             settings,

@@ -246,8 +246,14 @@ impl<const D: usize> Problem for FluidSolver<D> {
             frames: &self.frames,
             convects: self.settings.convection,
         };
-        let assembly = &mut self.assembly;
-        Ok(timed(&mut self.phases.assembly, || assembly.assemble(&iterate, with_tangent)))
+        let (assembly, shared, prescribed) =
+            (&mut self.assembly, &mut self.shared, &self.boundaries.prescribed);
+        Ok(timed(&mut self.phases.assembly, || {
+            let norm = assembly.assemble(&iterate, with_tangent);
+            // Here, so that residual and stresses are those of one iterate on one mesh.
+            shared.update(&iterate, &assembly.residual, prescribed);
+            norm
+        }))
     }
 
     fn solve_and_update(&mut self) -> Result<(), FluidError> {

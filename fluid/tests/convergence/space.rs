@@ -32,7 +32,7 @@ fn force(x: &[f64; 2], nu: f64) -> [f64; 2] {
     [PI * sx * cx + viscous * u[0] - PI * sx / DENSITY, PI * sy * cy + viscous * u[1] + PI * cy / DENSITY]
 }
 
-fn fluid(mesh: Mesh<2>, nu: f64, time: TimeScheme) -> FluidSolver<2> {
+pub(crate) fn fluid(mesh: Mesh<2>, nu: f64, time: TimeScheme) -> FluidSolver<2> {
     let velocity: VectorField<2> = Arc::new(|x, _| vortex(x).velocity);
     let model = FluidModel {
         density: DENSITY,

@@ -15,6 +15,7 @@ mod interface;
 mod kernel;
 mod newton;
 mod probe;
+mod shared;
 mod state;
 mod stokes;
 mod tangent;

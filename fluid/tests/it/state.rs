@@ -77,6 +77,11 @@ fn restored_state_continues_with_the_same_bits() {
     run(&mut resumed, 3..6);
     assert_eq!(whole.state(), resumed.state());
     assert_eq!(whole.residual(), resumed.residual());
+    // The bottom shares its ends with the inflow and with an inclined slip wall.
+    for group in ["left", "right", "bottom"] {
+        assert_eq!(whole.force_on(group), resumed.force_on(group));
+    }
+    assert_eq!(whole.interface_work(), resumed.interface_work());
 }
 
 #[test]

@@ -44,7 +44,7 @@ pub enum Probe {
     StructurePoint([Real; 2]),
     /// Kinetic and strain energy of the structure \[J, in 2D J/m\].
     StructureEnergy,
-    /// Force of the fluid on this boundary group, or on several together \[N, in 2D N/m\].
+    /// Force of the fluid on this boundary group, or on several together, without the parts of neighbouring groups at the nodes they share \[N, in 2D N/m\].
     FluidForce(Groups),
     /// Velocity \[m/s\] and pressure \[Pa\] at the mesh node nearest to this point \[m\], before it moves.
     FluidValue([Real; 2]),

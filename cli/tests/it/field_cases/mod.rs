@@ -1,6 +1,7 @@
 //! Inputs in the manner of public bug reports, each with the outcome that is right for its kind of fault.
 
 mod convergence;
+mod forces;
 mod geometry;
 mod meshes;
 mod transfer;

@@ -4,7 +4,7 @@ mod coupling;
 #[cfg(test)]
 mod defaults;
 mod fluid;
-mod interface;
+pub(crate) mod interface;
 mod structure;
 
 use partita_coupling::{Block, March, Quantity, SetupError, Transfer};

@@ -12,9 +12,12 @@ use partita_iga::seam::Seams;
 use partita_mesh::{Mesh, Place, quality, simplex};
 use partita_structure::{Space, StructureSolver};
 
+use crate::build::interface::{chosen, coarsest};
 use crate::build::{BuildError, Run};
 use crate::memory;
-use crate::scene::schema::{Component, Condition, Coupling, Direction, Fluid, Part, Structure, plain};
+use crate::scene::schema::{
+    Component, Condition, Coupling, Direction, Fluid, Part, Structure, Transfer, plain,
+};
 use crate::scene::{Content, Resolved, Role, words};
 use inflow::Inflow;
 
@@ -51,7 +54,14 @@ pub fn describe(resolved: &Resolved, run: &Run) -> String {
     }
     if let (Some(coupling), Some(fluid), Some(structure)) = (&scene.coupling, fluid, structure) {
         let (nodes, points) = (fluid.interface_nodes().len(), structure.interface_points().len());
-        page.line("interface", format!("{nodes} fluid nodes on {points} control points that move"));
+        let transfer = match chosen(coupling.transfer, coarsest(fluid, structure).as_ref()) {
+            Transfer::Mortar => "mortar",
+            _ => "interpolation",
+        };
+        page.line(
+            "interface",
+            format!("{nodes} fluid nodes on {points} control points that move, by {transfer}"),
+        );
         page.coupling(coupling);
     }
     page.line("memory", format!("about {}", memory::words(memory_of(fluid, structure))));

@@ -57,20 +57,18 @@ pub trait Accelerator: Send {
 }
 
 /// What a residual is worth as evidence of how the fields respond.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Answer {
     /// Whether both fields answered the input of this iteration. A field that enters its call converged and takes no Newton
     /// iteration does not: it hands out the load, or the displacement, of an earlier input. The difference to another
     /// iteration then is no derivative of anything.
     pub answered: bool,
-    /// Norm below which a difference of two outputs `x_tilde` is round-off, whatever their own size \[m\].
-    pub resolution: f64,
 }
 
 impl Default for Answer {
-    /// An answer, exact to the last bit.
+    /// An answer.
     fn default() -> Self {
-        Self { answered: true, resolution: 0.0 }
+        Self { answered: true }
     }
 }
 

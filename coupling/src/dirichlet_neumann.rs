@@ -141,7 +141,7 @@ pub fn solve_step(
         let record = history.iterations.last_mut().expect("the record was just pushed");
         if !converged && !at_bound && growth.is_none() {
             clock = Instant::now();
-            let answer = record.answer(second.resolution());
+            let answer = record.answer();
             record.acceleration = Some(accelerator.propose(&mut interface.x, &interface.r, &answer));
             record.seconds.acceleration += lap(&mut clock);
         }

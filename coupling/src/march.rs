@@ -265,7 +265,7 @@ impl<A: Participant, B: Participant> March<A, B> {
         self.first.commit();
         self.second.commit();
         let last = self.history.last().expect("a finished step has at least one iteration");
-        let answer = last.answer(self.second.resolution());
+        let answer = last.answer();
         let dropped = self.choices.accelerator.step_converged(&self.interface.x, &self.interface.r, &answer);
         self.work = self.interface.work_since(&self.past.newest().displacement);
         self.past.push(clock.time, &self.interface.x_tilde);

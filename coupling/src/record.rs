@@ -121,9 +121,9 @@ impl IterationRecord {
         self.fields.iter().flat_map(|field| &field.changes).map(|change| change.value).fold(0.0, f64::max)
     }
 
-    /// What the residual tells an accelerator, where outputs are exact to `resolution` \[m\].
-    pub(crate) fn answer(&self, resolution: f64) -> Answer {
-        Answer { answered: self.fields.iter().all(FieldRecord::answers), resolution }
+    /// What the residual is worth as evidence.
+    pub(crate) fn answer(&self) -> Answer {
+        Answer { answered: self.fields.iter().all(FieldRecord::answers) }
     }
 
     /// The record without its times.

@@ -10,6 +10,24 @@ use sprs::TriMat;
 use super::BuildError;
 use crate::scene::schema;
 
+mod coarsest;
+
+pub(crate) use coarsest::{Coarsest, coarsest};
+
+/// Elements of the structure along an edge of the fluid, up to which the mortar method is chosen. A coarser fluid takes means
+/// over many elements: neither operator is clearly better there, and interpolation keeps every node on the structure.
+pub(crate) const MORTAR_UP_TO: f64 = 3.0;
+
+/// The operator that a scene's choice comes to, with the coarsest facet of the interface.
+pub(crate) fn chosen(asked: schema::Transfer, coarsest: Option<&Coarsest>) -> schema::Transfer {
+    let coarse = coarsest.is_some_and(|coarsest| coarsest.ratio() > MORTAR_UP_TO);
+    match asked {
+        schema::Transfer::Automatic if coarse => schema::Transfer::Interpolation,
+        schema::Transfer::Automatic => schema::Transfer::Mortar,
+        other => other,
+    }
+}
+
 /// Gauss points beyond the degree of the structure: `R_a` times a linear multiplier is exact on straight elements with one more,
 /// the rest is for rational and unevenly stretched ones.
 const MORE_POINTS: usize = 3;
@@ -33,9 +51,9 @@ pub(crate) fn transfer(
     let tolerance = coupling.projection_tolerance.get() * extent(&points);
     let nodal = rows(structure.interface_rows(&points, tolerance)?);
     let count = points.len();
-    let rows = match coupling.transfer {
+    let rows = match chosen(coupling.transfer, coarsest(fluid, structure).as_ref()) {
         schema::Transfer::Interpolation => nodal,
-        schema::Transfer::Mortar => mortar(points, facets(fluid), nodal, structure, tolerance)?,
+        _ => mortar(points, facets(fluid), nodal, structure, tolerance)?,
     };
     let mut weights = TriMat::new((count, structure.interface_points().len()));
     for (row, entries) in rows.iter().enumerate() {

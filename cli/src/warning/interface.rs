@@ -5,31 +5,12 @@ use partita_mesh::Place;
 use partita_structure::StructureSolver;
 
 use super::{Found, Kind};
+use crate::build::interface::{Coarsest, MORTAR_UP_TO, chosen, coarsest};
 use crate::scene::schema::{Coupling, Transfer};
 
-/// Length of a facet over that of the element beside it, above which a scene is warned. By interpolation, elements in between
-/// get no load of their own beyond this ratio.
+/// Length of a facet over that of the element beside it, above which a scene that asks for interpolation is warned: elements
+/// in between get no load of their own.
 const BY_INTERPOLATION: f64 = 1.5;
-/// The mean load and motion are right at any ratio; beyond this one, the structure bends at many places between two nodes of
-/// the fluid that cannot follow.
-const BY_MORTAR: f64 = 3.0;
-
-/// The longest facet of the fluid's interface beside the element of the structure there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Coarsest {
-    /// Length of the facet \[m\].
-    facet: f64,
-    /// Length of the element that is closest to its middle \[m\].
-    element: f64,
-    /// The middle of the facet \[m\].
-    place: [f64; 2],
-}
-
-impl Coarsest {
-    fn ratio(&self) -> f64 {
-        self.facet / self.element
-    }
-}
 
 pub(super) fn check(
     found: &mut Found<'_>,
@@ -38,56 +19,26 @@ pub(super) fn check(
     structure: &StructureSolver<2>,
 ) {
     let Some(coarsest) = coarsest(fluid, structure) else { return };
-    let (limit, loses, remedy) = match coupling.transfer {
-        Transfer::Interpolation => (
-            BY_INTERPOLATION,
-            "`interpolation` loads the structure at single points",
-            "refine the fluid's interface, take fewer elements along the structure, or `coupling.transfer = \"mortar\"`",
-        ),
-        Transfer::Mortar => (
-            BY_MORTAR,
-            "neither loads nor motions that vary within an edge pass",
-            "refine the fluid's interface, or take fewer elements along the structure",
-        ),
-    };
-    if coarsest.ratio() > limit {
-        let Coarsest { facet, element, place } = coarsest;
-        let what = format!(
-            "the fluid's edge at {} is {facet:.3e} m long, {:.1} elements of the structure ({element:.3e} m): {loses}",
-            Place::from(place),
-            coarsest.ratio(),
-        );
-        found.warn(Kind::CoarseInterface, &["coupling", "transfer"], what, remedy);
+    let limit = if coupling.transfer == Transfer::Interpolation { BY_INTERPOLATION } else { MORTAR_UP_TO };
+    if coarsest.ratio() <= limit {
+        return;
     }
-}
-
-/// Ratios closer than this are one, up to round-off.
-const SAME: f64 = 1e-9;
-
-/// The facet that is the longest beside its element; the first of several.
-fn coarsest(fluid: &FluidSolver<2>, structure: &StructureSolver<2>) -> Option<Coarsest> {
-    let elements = structure.space().boundary_elements(&structure.model().wetted);
-    let points = fluid.mesh().points();
-    let of_facet = |[a, b]: [[f64; 2]; 2]| {
-        let place = [0, 1].map(|c| f64::midpoint(a[c], b[c]));
-        let nearest = elements
-            .iter()
-            .min_by(|one, other| distance_to_line(&place, one).total_cmp(&distance_to_line(&place, other)))?;
-        Some(Coarsest { facet: distance(&a, &b), element: distance(&nearest[0], &nearest[1]), place })
+    let finer = "refine the fluid's interface, or take fewer elements along the structure";
+    let (loses, remedy) = match (chosen(coupling.transfer, Some(&coarsest)), coupling.transfer) {
+        (Transfer::Mortar, _) => {
+            ("neither loads nor motions that vary within an edge pass", finer.to_owned())
+        }
+        (_, Transfer::Interpolation) => (
+            "`interpolation` loads the structure at single points",
+            format!("{finer}, or `coupling.transfer = \"mortar\"`"),
+        ),
+        _ => ("loads go to the structure at single points", finer.to_owned()),
     };
-    let all = fluid.interface_facets().filter_map(|facet| of_facet(facet.nodes.map(|node| points[node])));
-    all.reduce(|best, next| if next.ratio() > (1.0 + SAME) * best.ratio() { next } else { best })
-}
-
-/// Distance of a point from the line between two others.
-fn distance_to_line(point: &[f64; 2], [start, end]: &[[f64; 2]; 2]) -> f64 {
-    let along = [end[0] - start[0], end[1] - start[1]];
-    let square = along[0].powi(2) + along[1].powi(2);
-    let s = ((point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]) / square;
-    let s = s.clamp(0.0, 1.0);
-    distance(point, &[start[0] + s * along[0], start[1] + s * along[1]])
-}
-
-fn distance(a: &[f64; 2], b: &[f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+    let Coarsest { facet, element, place } = coarsest;
+    let what = format!(
+        "the fluid's edge at {} is {facet:.3e} m long, {:.1} elements of the structure ({element:.3e} m): {loses}",
+        Place::from(place),
+        coarsest.ratio(),
+    );
+    found.warn(Kind::CoarseInterface, &["coupling", "transfer"], what, &remedy);
 }

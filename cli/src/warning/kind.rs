@@ -89,8 +89,8 @@ impl Kind {
                 "A fixed wall of the fluid ends at the interface, and the structure moves that corner off the wall."
             }
             Self::CoarseInterface => {
-                "An edge of the fluid's interface is longer than 1.5 elements of the structure there, with which \
-                 `transfer = \"interpolation\"` acts like point loads; with `\"mortar\"`, longer than 3."
+                "An edge of the fluid's interface is longer than 3 elements of the structure there; where a scene asks for \
+                 `transfer = \"interpolation\"`, which then acts like point loads, longer than 1.5."
             }
             Self::MotionJump => {
                 "A prescribed wall motion is not zero at t = 0, or starts at full speed in a fluid at rest."

@@ -55,6 +55,7 @@ tolerance = { relative = 1e-9 }
 [coupling]
 convergence = { changes = 1e-8 }
 predictor = "quadratic"
+transfer = "interpolation"
 
 [coupling.acceleration.iqn_imvls]
 history_steps = 5

@@ -39,9 +39,9 @@ fn first_steps_of_the_beam_cost_what_they_did() {
     }
     assert_snapshot!(table.join("\n"), @r"
     N^f N^s  coupling  fluid  structure
-    1 1: 66 66 57
-    2 2: 49 98 81
-    unlimited unlimited: 44 158 85
+    1 1: 67 67 56
+    2 2: 48 96 77
+    unlimited unlimited: 44 153 79
     ");
 }
 

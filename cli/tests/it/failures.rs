@@ -149,7 +149,7 @@ fn a_coupling_loop_at_its_bound_ends_the_run_with_its_iterations() {
     let more = ["--set", "coupling.max_iterations=6", "--set", "output.fields_every=0"];
     let (outcome, left) = fails(&folder, &more, 1);
     assert_snapshot!(plain(&outcome.stderr), @r"
-    step 1 (t = 0.01 s), coupling iteration 6, the step is not converged after 6 coupling iterations: |r| = 3.992e-7 m (6.857e-5 of the interface displacement), largest change 5.644e-4, both fields below their own bounds
+    step 1 (t = 0.01 s), coupling iteration 6, the step is not converged after 6 coupling iterations: |r| = 9.785e-7 m (1.848e-4 of the interface displacement), largest change 6.347e-4, both fields below their own bounds
     help: raise the iteration bound, use a quasi-Newton method, or check that the tolerances can be met
     ");
     assert_eq!((left.iterations, left.fields.len()), (6, 2));
@@ -163,7 +163,7 @@ fn relaxed(omega: f64) -> [String; 3] {
 
 #[test]
 fn a_relaxation_too_large_for_the_added_mass_is_called_that() {
-    for (omega, most) in [(1.0, 10), (0.4, 40)] {
+    for (omega, most) in [(1.0, 10), (0.48, 40)] {
         let (_guard, folder) = folder_with(&fs::read_to_string(tank() + "/scene.toml").expect("the tank"));
         let settings = relaxed(omega);
         let more: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting]).collect();
@@ -172,7 +172,7 @@ fn a_relaxation_too_large_for_the_added_mass_is_called_that() {
         assert!(message.starts_with("step 1 (t = 0.01 s), coupling iteration "), "{message}");
         assert!(
             message
-                .contains("; the coupling iteration diverges: |r| grew from 3.312e-2 m in iteration 1 to "),
+                .contains("; the coupling iteration diverges: |r| grew from 2.474e-2 m in iteration 1 to "),
             "{message}"
         );
         assert!(message.contains("help: take a smaller relaxation factor"), "{message}");
@@ -184,11 +184,11 @@ fn a_relaxation_too_large_for_the_added_mass_is_called_that() {
 #[test]
 fn a_divergence_that_only_creeps_is_not_accepted_as_a_step() {
     let (_guard, folder) = folder_with(&fs::read_to_string(tank() + "/scene.toml").expect("the tank"));
-    let settings = relaxed(0.365);
+    let settings = relaxed(0.438);
     let more: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting]).collect();
     let (outcome, left) = fails(&folder, &more, 1);
     let expected = "step 1 (t = 0.01 s), coupling iteration 100, interface: the coupling iteration diverges: |r| grew from \
-                    3.312e-2 m in iteration 1 to ";
+                    2.474e-2 m in iteration 1 to ";
     let message = plain(&outcome.stderr);
     assert!(
         message.starts_with(expected) && message.contains(" m in iteration 100\nhelp: take a smaller"),

@@ -297,6 +297,7 @@ fn tables_say_what_the_records_say() {
     ");
     let rest = table(&steps).lines().skip(17).collect::<Vec<_>>().join("\n");
     insta::assert_snapshot!(rest, @r"
+    dropped_columns  0
     fluid_seconds  2.0
     fluid_assembly_seconds  0.25
     fluid_factorization_seconds  0.125

@@ -145,7 +145,7 @@ fn a_resolved_scene_holds_every_default() {
     max_iterations = 100
     on_limit = "fail"
     projection_tolerance = 1e-6
-    transfer = "interpolation"
+    transfer = "automatic"
     predictor = "constant"
     convergence = { changes = 1e-5 }
 

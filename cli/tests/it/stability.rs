@@ -61,8 +61,8 @@ fn a_map_is_a_table_a_picture_and_a_line_for_each_choice() {
     let outcome = run(&path, &["--out", "out"]);
     assert_eq!(outcome.code, 0, "{}", outcome.stderr);
     assert_snapshot!(outcome.stdout, @r"
-    constant: 2 of 4 cells converged, at most 84 iterations a step, 1 iteration_bound, 1 diverged
-    IQN-IMVLS: 4 of 4 cells converged, at most 14 iterations a step
+    constant: 2 of 4 cells converged, at most 82 iterations a step, 1 iteration_bound, 1 diverged
+    IQN-IMVLS: 4 of 4 cells converged, at most 13 iterations a step
     ");
     assert_eq!(entries(&path.join("out")), ["cells.csv", "cells.jsonl", "map.svg", "map.toml"]);
     let table = table(&path, "out");

@@ -93,14 +93,20 @@ fn a_step_that_is_long_against_the_first_period() {
 
 #[test]
 fn a_fluid_coarser_than_the_structure() {
-    let mortar = "coupling.transfer=mortar";
-    raises(Kind::CoarseInterface, SOUND, &[&along(2 * EDGES)], &[&along(EDGES)]);
-    raises(Kind::CoarseInterface, SOUND, &[&along(2 * EDGES)], &[&along(2 * EDGES), mortar]);
+    let [mortar, interpolation] = ["coupling.transfer=mortar", "coupling.transfer=interpolation"];
+    raises(Kind::CoarseInterface, SOUND, &[&along(4 * EDGES)], &[&along(2 * EDGES)]);
+    raises(
+        Kind::CoarseInterface,
+        SOUND,
+        &[&along(2 * EDGES), interpolation],
+        &[&along(EDGES), interpolation],
+    );
+    raises(Kind::CoarseInterface, SOUND, &[&along(2 * EDGES), interpolation], &[&along(2 * EDGES), mortar]);
     raises(Kind::CoarseInterface, SOUND, &[&along(4 * EDGES), mortar], &[&along(2 * EDGES), mortar]);
     raises(
         Kind::CoarseInterface,
         SOUND,
-        &[&along(2 * EDGES), "coupling.direction=one_way"],
+        &[&along(4 * EDGES), "coupling.direction=one_way"],
         &[&along(EDGES), "coupling.direction=one_way"],
     );
 }

@@ -53,10 +53,9 @@ impl Aitken {
     }
 
     /// The factor of the two last answered iterations, or why they give none.
-    fn secant(&mut self, x: &[f64], r: &[f64], answer: &Answer) -> Result<f64, DropReason> {
+    fn secant(&mut self, x: &[f64], r: &[f64]) -> Result<f64, DropReason> {
         subtract(r, &self.previous, &mut self.difference);
-        let round_off = answer.resolution.max(f64::EPSILON * norm(x));
-        if norm(&self.difference) <= round_off {
+        if norm(&self.difference) <= f64::EPSILON * norm(x) {
             return Err(DropReason::NoChange);
         }
         let omega = -dot(&self.moved, &self.difference) / dot(&self.difference, &self.difference);
@@ -72,7 +71,7 @@ impl Aitken {
 impl Accelerator for Aitken {
     fn propose(&mut self, x: &mut [f64], r: &[f64], answer: &Answer) -> Proposal {
         let secant = match (answer.answered, self.answered) {
-            (true, true) => self.secant(x, r, answer).map(Some),
+            (true, true) => self.secant(x, r).map(Some),
             (true, false) => Ok(None),
             (false, _) => Err(DropReason::NoAnswer),
         };
@@ -160,7 +159,7 @@ mod tests {
         let mut x = [0.0];
         aitken.propose(&mut x, &[a], &Answer::default());
         let stale = [a - x[0]];
-        let proposal = aitken.propose(&mut x, &stale, &Answer { answered: false, resolution: 0.0 });
+        let proposal = aitken.propose(&mut x, &stale, &Answer { answered: false });
         assert_eq!((proposal.omega, proposal.dropped[0].reason), (Some(0.05), DropReason::NoAnswer));
         let r = [a + lambda * x[0] - x[0]];
         aitken.propose(&mut x, &r, &Answer::default());

@@ -191,7 +191,7 @@ impl Secants {
         if !answer.answered {
             dropped.push(DroppedColumn { steps_ago: 0, column: 0, reason: DropReason::NoAnswer });
         } else if let Some(before) = before.filter(|_| !waited) {
-            dropped.extend(self.add(&before, answer.resolution));
+            dropped.extend(self.add(&before));
         }
         dropped
     }
@@ -205,14 +205,14 @@ impl Secants {
         self.remove(&dropped)
     }
 
-    fn add(&mut self, before: &Iterate, resolution: f64) -> Vec<DroppedColumn> {
+    fn add(&mut self, before: &Iterate) -> Vec<DroppedColumn> {
         let now = self.last.as_ref().expect("the iterate was just stored");
         let column = Column {
             v: difference(&now.r, &before.r),
             w: difference(&now.x_tilde, &before.x_tilde),
             jv: difference(&now.jr, &before.jr),
         };
-        let round_off = resolution.max(f64::EPSILON * norm(&now.x_tilde));
+        let round_off = f64::EPSILON * norm(&now.x_tilde);
         if norm(&column.v) <= round_off || norm(&column.w) <= round_off {
             return vec![DroppedColumn { steps_ago: 0, column: 0, reason: DropReason::NoChange }];
         }
@@ -315,7 +315,7 @@ mod tests {
         assert_eq!(secants.len(), 1);
     }
 
-    const UNANSWERED: Answer = Answer { answered: false, resolution: 0.0 };
+    const UNANSWERED: Answer = Answer { answered: false };
 
     #[test]
     fn an_iterate_without_an_answer_makes_no_column_and_x_waits_for_one() {
@@ -347,12 +347,12 @@ mod tests {
     #[test]
     fn differences_of_round_off_are_no_columns() {
         let no_change = [DroppedColumn { steps_ago: 0, column: 0, reason: DropReason::NoChange }];
-        for (resolution, step, expected) in [(0.0, 1e-3, 1), (1e-2, 1e-3, 0), (0.0, 1e-16, 0)] {
+        for (step, expected) in [(1e-3, 1), (1e-14, 1), (1e-17, 0)] {
             let mut secants = Secants::new(Filter::None);
-            let answer = Answer { answered: true, resolution };
-            secants.observe(&[1.0], &[1.0], &[], &answer);
-            let dropped = secants.observe(&[1.0 + 2.0 * step], &[1.0 - step], &[], &answer);
-            assert_eq!(secants.len(), expected, "{resolution} {step}");
+            secants.observe(&[1.0], &[1.0], &[], &Answer::default());
+            let dropped =
+                secants.observe(&[1.0 + 20.0 * step], &[1.0 - 10.0 * step], &[], &Answer::default());
+            assert_eq!(secants.len(), expected, "{step}");
             assert_eq!(dropped == no_change, expected == 0);
         }
     }

@@ -65,9 +65,13 @@ pub enum Direction {
 
 /// `coupling.transfer`: the operator H, `d_f = H d` for displacements of the structure at the fluid's nodes i and `F = H^T f`
 /// for loads. Either keeps total force and virtual work.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Transfer {
+    /// `"mortar"` where no edge of the fluid's interface is longer than 3 elements of the structure beside it, else
+    /// `"interpolation"`.
+    #[default]
+    Automatic,
     /// `H_ia = R_a(x_i)`: the structure's shape functions at the fluid's node. The load is a trapezoidal rule: where the fluid's
     /// edges are not much shorter than the structure's elements, H^T f acts like point loads.
     Interpolation,
@@ -75,17 +79,6 @@ pub enum Transfer {
     /// `psi_i` dual to the fluid's linear shape functions `N_i`. The load of a uniform pressure is the consistent one for any two
     /// resolutions. Ends and corners e, at a distance of `h_e`, are interpolated. See the theory page.
     Mortar,
-}
-
-impl Transfer {
-    /// What a scene gets that does not choose.
-    pub const DEFAULT: Self = Self::Interpolation;
-}
-
-impl Default for Transfer {
-    fn default() -> Self {
-        Self::DEFAULT
-    }
 }
 
 /// `coupling.on_limit`.

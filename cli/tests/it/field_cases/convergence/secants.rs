@@ -106,6 +106,6 @@ fn dropped_columns_are_counted() {
         }
         in_steps += record["step"]["dropped_columns"].as_u64().unwrap_or(0) as usize;
     }
-    assert!(unanswered > 10, "{unanswered}");
+    assert!(unanswered > 0);
     assert!(in_steps > in_iterations, "{in_steps} and {in_iterations}: the last iterations count, too");
 }

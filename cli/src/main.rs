@@ -2,6 +2,7 @@
 
 mod args;
 mod failure;
+mod progress;
 mod standing;
 
 use std::fs;
@@ -22,6 +23,7 @@ use args::{
     Arguments, Check, Command, Manner, Plan, Resume, Rows, Run, SceneArguments, Stability, Study, Table,
 };
 use failure::Failure;
+use progress::Progress;
 use standing::Standing;
 
 /// Set when the user asks to stop; the run ends after its step.
@@ -207,10 +209,9 @@ fn stability(arguments: &Stability) -> Result<ExitCode, Failure> {
     let options = stability::Options {
         jobs: arguments.jobs.map_or_else(processors, Into::into),
         fresh: arguments.force,
-        quiet: arguments.quiet,
         stop: &STOP,
     };
-    match stability::run(&map, &dir, options)? {
+    match stability::run(&map, &dir, options, &mut Progress::new(arguments.quiet))? {
         stability::Ending::Finished(rows) => {
             if !arguments.quiet {
                 print(&stability::summary(&map, &rows))?;
@@ -240,16 +241,11 @@ fn stop_when_interrupted() {
 
 fn options(manner: &Manner) -> Options<'static> {
     stop_when_interrupted();
-    Options {
-        steps: manner.steps.map(Into::into),
-        quiet: manner.quiet,
-        stop: Some(&STOP),
-        threads: Some(manner.threads),
-    }
+    Options { steps: manner.steps.map(Into::into), stop: Some(&STOP), threads: Some(manner.threads) }
 }
 
 fn finish(session: Session<'_>, dir: &Path, manner: &Manner) -> Result<ExitCode, Failure> {
-    let summary = session.finish().inspect_err(|error| {
+    let summary = session.finish_watched(&mut Progress::new(manner.quiet)).inspect_err(|error| {
         // Where a summary was asked for there is one of a failed run too.
         if let (RunError::Step(_) | RunError::Storage { .. }, true) = (error, manner.json) {
             let _ = fs::read_to_string(dir.join(output::SUMMARY)).map(|summary| print(&summary));

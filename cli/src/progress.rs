@@ -4,34 +4,42 @@ use std::fmt::Write as _;
 use std::io::IsTerminal;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use partita_coupling::record::IterationRecord;
+use partita::watch::Watcher;
+use partita_coupling::{IterationRecord, RetryRecord};
+use partita_numerics::time::shown;
 
 /// A bar over the steps, with the counts of the step being solved and the time left.
 ///
 /// It stands on stderr, and only where that is a terminal: logs and pipes see nothing of it.
 #[derive(Debug)]
-pub struct Progress {
+pub(crate) struct Progress {
     bar: ProgressBar,
     newton: [usize; 2],
+    quiet: bool,
 }
 
 impl Progress {
-    /// A bar over `steps` steps, of which `done` were done by an earlier session.
-    #[must_use]
-    pub fn new(steps: usize, done: usize, quiet: bool) -> Self {
+    /// A bar that says nothing of what goes well when it is `quiet`.
+    pub(crate) fn new(quiet: bool) -> Self {
         let target = if quiet || !std::io::stderr().is_terminal() {
             ProgressDrawTarget::hidden()
         } else {
             ProgressDrawTarget::stderr()
         };
-        let bar = ProgressBar::with_draw_target(Some(steps as u64), target).with_position(done as u64);
+        let bar = ProgressBar::with_draw_target(None, target);
         bar.set_style(style());
-        bar.reset_eta();
-        Self { bar, newton: [0; 2] }
+        Self { bar, newton: [0; 2], quiet }
+    }
+}
+
+impl Watcher for Progress {
+    fn begins(&mut self, total: usize, done: usize) {
+        self.bar.set_length(total as u64);
+        self.bar.set_position(done as u64);
+        self.bar.reset_eta();
     }
 
-    /// Shows an iteration of the step being solved.
-    pub fn iteration(&mut self, record: &IterationRecord) {
+    fn iteration(&mut self, record: &IterationRecord) {
         if record.iteration <= 1 {
             self.newton = [0; 2];
         }
@@ -43,18 +51,29 @@ impl Progress {
         self.bar.set_message(message);
     }
 
-    /// Shows that so many steps are done.
-    pub fn reach(&self, steps: usize) {
-        self.bar.set_position(steps as u64);
+    fn retried(&mut self, record: &RetryRecord) {
+        if self.quiet {
+            return;
+        }
+        self.note(&format!(
+            "step {} (t = {} s) of {} s failed, goes on with {} s: {}",
+            record.step,
+            shown(record.time),
+            shown(record.dt),
+            shown(record.next_dt),
+            record.cause
+        ));
     }
 
-    /// Writes a line above the bar, on stderr.
-    pub fn say(&self, line: &str) {
+    fn reaches(&mut self, done: usize) {
+        self.bar.set_position(done as u64);
+    }
+
+    fn note(&mut self, line: &str) {
         self.bar.suspend(|| eprintln!("{line}"));
     }
 
-    /// Takes the bar away.
-    pub fn finish(&self) {
+    fn ends(&mut self) {
         self.bar.finish_and_clear();
     }
 }
@@ -89,7 +108,8 @@ mod tests {
 
     #[test]
     fn newton_counts_are_those_of_the_step_being_solved() {
-        let mut progress = Progress::new(50, 0, true);
+        let mut progress = Progress::new(true);
+        progress.begins(50, 0);
         progress.iteration(&iteration(1, 1, [5, 3]));
         progress.iteration(&iteration(1, 2, [4, 0]));
         assert_eq!(progress.bar.message(), "coupling 2, Newton fluid 9 structure 3");
@@ -99,12 +119,13 @@ mod tests {
 
     #[test]
     fn a_resumed_run_starts_where_it_was() {
-        let progress = Progress::new(50, 20, true);
+        let mut progress = Progress::new(true);
+        progress.begins(50, 20);
         assert_eq!((progress.bar.position(), progress.bar.length()), (20, Some(50)));
     }
 
     #[test]
     fn nothing_is_drawn_when_quiet() {
-        assert!(Progress::new(50, 0, true).bar.is_hidden());
+        assert!(Progress::new(true).bar.is_hidden());
     }
 }

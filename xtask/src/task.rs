@@ -66,7 +66,7 @@ pub(crate) fn captured(mut command: Command) -> Result<String, TaskError> {
 
 /// Builds the program; it lies beside the profile of this one.
 pub(crate) fn release_binary(root: &Path) -> Result<PathBuf, TaskError> {
-    run(cargo(root, &["build", "--release", "--package", "partita", "--bin", "partita"]))?;
+    run(cargo(root, &["build", "--release", "--package", "partita-cli", "--bin", "partita"]))?;
     let this =
         std::env::current_exe().map_err(|source| TaskError::File { path: PathBuf::from("xtask"), source })?;
     let target = this.parent().and_then(Path::parent).expect("cargo puts a binary into target/<profile>");

@@ -85,7 +85,7 @@ fn a_run_keeps_its_mesh_and_can_be_taken_up_without_the_scene() {
     }
     let overrides = ["output.checkpoint_every=1", "output.fields_every=0"].map(str::to_owned);
     let scene = scene::load(&kept, &overrides).expect("the copy is sound");
-    let options = Options { steps: Some(1), quiet: true, ..Options::default() };
+    let options = Options { steps: Some(1), ..Options::default() };
     let session = Session::start(&scene, &dir, options, Clock::start()).expect("the run starts");
     session.finish().expect("the step converges");
     fs::remove_dir_all(&kept).expect("the scene can go");

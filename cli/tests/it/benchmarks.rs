@@ -20,7 +20,7 @@ fn probes(name: &str, steps: usize, overrides: &[&str]) -> String {
     let resolved = scene::load(&folder, &overrides).expect("the shipped scene is sound");
     let dir = tempfile::tempdir().expect("a folder");
     let dir = dir.path().join("run");
-    let options = Options { steps: Some(steps), quiet: true, ..Options::default() };
+    let options = Options { steps: Some(steps), ..Options::default() };
     let session = Session::start(&resolved, &dir, options, Clock::start()).expect("the scene builds");
     session.finish().expect("every step converges");
     let table = fs::read_to_string(dir.join("probes.csv")).expect("probes");

@@ -41,7 +41,7 @@ $Elements\n3\n1 1 2 1 1 4 1\n2 1 2 2 2 3 4\n3 3 2 9 9 1 2 3 4\n$EndElements\n";
 fn tip(folder: &Path, scene: &str) -> [f64; 2] {
     let resolved = read_in(folder, "scene.toml", scene, &[]).expect("the scene is sound");
     let dir = folder.join("run");
-    let options = Options { quiet: true, ..Options::default() };
+    let options = Options::default();
     let session = Session::start(&resolved, &dir, options, Clock::start()).expect("the run starts");
     session.finish().expect("the step converges");
     let probes = fs::read_to_string(dir.join("probes.csv")).expect("probes");

@@ -198,7 +198,7 @@ fn resumed_equals_uninterrupted(further: &[&str]) -> Vec<String> {
     let half = fs::read_to_string(parts.join("run.jsonl")).expect("records") + "{\"iteration\":{\"st";
     fs::write(parts.join("run.jsonl"), half).expect("a broken line");
     let clock = Clock::start();
-    let options = Options { quiet: true, ..Options::default() };
+    let options = Options::default();
     let resumed = Session::resume(&tank, &parts, options, clock).expect("it can be resumed");
     assert_eq!(resumed.finish().expect("the rest converges").steps, 9);
     for name in ["run.jsonl", "steps.csv", "probes.csv", "scene.toml", "fluid.pvd"] {
@@ -227,7 +227,7 @@ fn one_field_alone_runs_in_the_same_loop() {
 }
 
 fn start<'a>(tank: &'a Resolved, dir: &Path, steps: Option<usize>) -> Session<'a> {
-    let options = Options { steps, quiet: true, ..Options::default() };
+    let options = Options { steps, ..Options::default() };
     Session::start(tank, dir, options, Clock::start()).expect("the run starts")
 }
 

@@ -147,7 +147,7 @@ impl<'a> Workshop<'a> {
 
 /// Builds the release binary and returns its path.
 fn build(root: &Path) -> Result<PathBuf, TaskError> {
-    let arguments = ["build", "--release", "--package", "partita", "--bin", "partita"];
+    let arguments = ["build", "--release", "--package", "partita-cli", "--bin", "partita"];
     let mut command = cargo(root, &arguments);
     command.arg("--message-format=json-render-diagnostics");
     executable(&captured(command)?)

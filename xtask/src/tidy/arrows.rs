@@ -27,8 +27,8 @@ const RESERVED: [(&str, &[&str]); 5] = [
     ("faer", &["numerics"]),
     ("clap", &["cli"]),
     ("indicatif", &["cli", "xtask"]),
-    ("miette", &["cli", "fuzz"]),
-    ("toml", &["cli", "iga", "xtask"]),
+    ("miette", &["partita", "cli", "fuzz"]),
+    ("toml", &["partita", "iga", "xtask"]),
 ];
 
 pub(crate) fn check(tree: &Tree) -> Vec<Finding> {

@@ -15,8 +15,8 @@ fn corner(map: &str, choice: &str, values: [&str; 2], steps: Option<usize>) -> R
     map.cells.retain(|cell| cell.choice == choice && cell.values == place);
     map.cells[0].overrides.extend(steps.map(|steps| format!("time.steps={steps}")));
     let folder = tempfile::tempdir().expect("a folder");
-    let options = Options { jobs: 1, fresh: true, quiet: true, stop: &AtomicBool::new(false) };
-    let ending = stability::run(&map, folder.path(), options).expect("the folder takes a map");
+    let options = Options { jobs: 1, fresh: true, stop: &AtomicBool::new(false) };
+    let ending = stability::run(&map, folder.path(), options, &mut ()).expect("the folder takes a map");
     let Ending::Finished(mut rows) = ending else { panic!("nobody interrupts it") };
     rows.remove(0)
 }

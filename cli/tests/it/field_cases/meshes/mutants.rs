@@ -206,7 +206,7 @@ fn answer(scene: &Path, out: &Path) -> bool {
     };
     assert!(check::describe(&resolved, &run).ends_with("scene is sound\n"));
     let _ = warning::of(&resolved, &run);
-    let options = Options { steps: Some(1), quiet: true, ..Options::default() };
+    let options = Options { steps: Some(1), ..Options::default() };
     let step = Session::start_with(run, &resolved, out, options, Clock::start()).and_then(Session::finish);
     if let Err(error) = step {
         assert!(error.to_string().contains("hint: "), "{error}");

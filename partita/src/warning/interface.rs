@@ -5,12 +5,15 @@ use partita_mesh::Place;
 use partita_structure::StructureSolver;
 
 use super::{Found, Kind};
-use crate::build::interface::{Coarsest, MORTAR_UP_TO, chosen, coarsest};
+use crate::build::interface::{Coarsest, chosen, coarsest};
 use crate::scene::schema::{Coupling, Transfer};
 
 /// Length of a facet over that of the element beside it, above which a scene that asks for interpolation is warned: elements
 /// in between get no load of their own.
 const BY_INTERPOLATION: f64 = 1.5;
+/// The same for the mortar method: the mean load and motion are right at any ratio, but the structure can bend at places
+/// between two nodes of the fluid that cannot follow.
+const BY_MORTAR: f64 = 3.0;
 
 pub(super) fn check(
     found: &mut Found<'_>,
@@ -19,8 +22,8 @@ pub(super) fn check(
     structure: &StructureSolver<2>,
 ) {
     let Some(coarsest) = coarsest(fluid, structure) else { return };
-    let limit = if coupling.transfer == Transfer::Interpolation { BY_INTERPOLATION } else { MORTAR_UP_TO };
-    if coarsest.ratio() <= limit {
+    let limit = if coupling.transfer == Transfer::Interpolation { BY_INTERPOLATION } else { BY_MORTAR };
+    if coarsest.ratio() <= limit * (1.0 + 1e-9) {
         return;
     }
     let finer = "refine the fluid's interface, or take fewer elements along the structure";

@@ -18,17 +18,15 @@ use crate::draw::Drawing;
 use crate::output::space::{self, Estimate};
 use crate::output::{Clock, Ending, OutputError, RunWriter, Spent, Summary};
 use crate::probe::Probes;
-use crate::progress::Progress;
 use crate::scene::Resolved;
 use crate::scene::schema::{Count, Output, Scene, Warnings};
+use crate::watch::Watcher;
 
 /// How a run is to be carried out; nothing here changes its numbers.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Options<'a> {
     /// Stop at the end of this step, if the scene goes on beyond it.
     pub steps: Option<usize>,
-    /// Draw no progress bar.
-    pub quiet: bool,
     /// Set from outside to stop at the end of the step.
     pub stop: Option<&'a AtomicBool>,
     /// How many threads solve large linear systems, one if nothing is said; no result depends on it.
@@ -168,6 +166,14 @@ impl<'a> Session<'a> {
         Ok(Self { run, resolved, scene, probes, drawing, writer, options, saved: Some(step), note })
     }
 
+    /// Steps to the end of the scene, or to where the options say, and writes the summary, with nobody watching.
+    ///
+    /// # Errors
+    /// As [`finish_watched`](Self::finish_watched).
+    pub fn finish(self) -> Result<Summary, RunError> {
+        self.finish_watched(&mut ())
+    }
+
     /// Steps to the end of the scene, or to where the options say, and writes the summary.
     ///
     /// A step that fails leaves its iterations, a checkpoint and the fields before it in the folder. Where the folder takes
@@ -175,33 +181,33 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     /// When a step cannot be solved, or what it came to not be written.
-    pub fn finish(mut self) -> Result<Summary, RunError> {
+    pub fn finish_watched(mut self, watcher: &mut dyn Watcher) -> Result<Summary, RunError> {
         let last =
             self.options.steps.map_or(self.scene.time.steps.get(), |s| s.min(self.scene.time.steps.get()));
-        let mut progress = Progress::new(last, self.done(), self.options.quiet);
+        watcher.begins(last, self.done());
         if let Some(note) = &self.note {
-            progress.say(note);
+            watcher.note(note);
         }
-        let outcome = self.march_to(last, &mut progress).and_then(|ending| {
+        let outcome = self.march_to(last, watcher).and_then(|ending| {
             self.save_if_wanted()?;
             Ok(ending)
         });
-        progress.finish();
+        watcher.ends();
         match outcome {
             Ok(ending) => Ok(self.writer.finish(ending)?),
-            Err(error @ RunError::Step(_)) => Err(self.give_up(error, &progress)),
+            Err(error @ RunError::Step(_)) => Err(self.give_up(error, watcher)),
             Err(error) => Err(self.break_off(error)),
         }
     }
 
     /// Writes what a failed step leaves: the fields and the checkpoint before it, and the summary. What cannot be written
     /// is said, but the step's error is the one that counts.
-    fn give_up(mut self, error: RunError, progress: &Progress) -> RunError {
+    fn give_up(mut self, error: RunError, watcher: &mut dyn Watcher) -> RunError {
         let drawn = self.draw().map_err(RunError::from);
         let saved = self.save_if_wanted();
         let summed = self.writer.fail(first_line(&error)).map(drop).map_err(RunError::from);
         for lost in [drawn, saved, summed].into_iter().filter_map(Result::err) {
-            progress.say(&format!("warning: {}", first_line(&lost)));
+            watcher.note(&format!("warning: {}", first_line(&lost)));
         }
         error
     }
@@ -222,9 +228,9 @@ impl<'a> Session<'a> {
         error
     }
 
-    fn march_to(&mut self, last: usize, progress: &mut Progress) -> Result<Ending, RunError> {
+    fn march_to(&mut self, last: usize, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
         while self.done() < last {
-            self.step(progress)?;
+            self.step(watcher)?;
             let stop = self.options.stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
             if stop && self.done() < last {
                 return Ok(Ending::Interrupted);
@@ -239,19 +245,18 @@ impl<'a> Session<'a> {
         self.scene.time.sizes().done(&self.run.clock())
     }
 
-    fn step(&mut self, progress: &mut Progress) -> Result<(), RunError> {
+    fn step(&mut self, watcher: &mut dyn Watcher) -> Result<(), RunError> {
         let sizes = self.scene.time.sizes();
-        let mut watch =
-            Watch { writer: &mut self.writer, progress, quiet: self.options.quiet, refused: None };
-        let result = self.run.step_or_halve(&sizes, &mut watch);
-        if let Some(refused) = watch.refused {
+        let mut scribe = Scribe { writer: &mut self.writer, watcher: &mut *watcher, refused: None };
+        let result = self.run.step_or_halve(&sizes, &mut scribe);
+        if let Some(refused) = scribe.refused {
             return Err(refused.into());
         }
         let step = result?.step;
         self.writer.probes(step, self.run.clock().time, &self.probes.values(&self.run))?;
         let clock = self.run.clock();
         let (done, on_grid) = (sizes.done(&clock), sizes.on_grid(&clock));
-        progress.reach(done);
+        watcher.reaches(done);
         let due = |every: usize| every > 0 && on_grid && done.is_multiple_of(every);
         if due(self.scene.output.fields_every) {
             self.draw()?;
@@ -381,15 +386,14 @@ fn decisive(resolved: &Resolved) -> String {
     resolved.to_toml() + &sums.collect::<String>()
 }
 
-/// Passes what happens inside a step on to files and terminal; keeps the first refusal for after the step.
-struct Watch<'a> {
+/// Passes what happens inside a step on to files and watcher; keeps the first refusal for after the step.
+struct Scribe<'a> {
     writer: &'a mut RunWriter,
-    progress: &'a mut Progress,
-    quiet: bool,
+    watcher: &'a mut dyn Watcher,
     refused: Option<OutputError>,
 }
 
-impl Watch<'_> {
+impl Scribe<'_> {
     /// Writes, unless the folder has refused before: behind half a line nothing can be read.
     fn write(&mut self, write: impl FnOnce(&mut RunWriter) -> Result<(), OutputError>) {
         if self.refused.is_none() {
@@ -398,10 +402,10 @@ impl Watch<'_> {
     }
 }
 
-impl Observer for Watch<'_> {
+impl Observer for Scribe<'_> {
     fn iteration(&mut self, record: &IterationRecord) {
         self.write(|writer| writer.iteration(record));
-        self.progress.iteration(record);
+        self.watcher.iteration(record);
     }
 
     fn step_finished(&mut self, record: &StepRecord) {
@@ -410,16 +414,6 @@ impl Observer for Watch<'_> {
 
     fn step_retried(&mut self, record: &RetryRecord) {
         self.write(|writer| writer.retry(record));
-        if self.quiet {
-            return;
-        }
-        self.progress.say(&format!(
-            "step {} (t = {} s) of {} s failed, goes on with {} s: {}",
-            record.step,
-            shown(record.time),
-            shown(record.dt),
-            shown(record.next_dt),
-            record.cause
-        ));
+        self.watcher.retried(record);
     }
 }

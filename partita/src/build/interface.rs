@@ -16,11 +16,12 @@ pub(crate) use coarsest::{Coarsest, coarsest};
 
 /// Elements of the structure along an edge of the fluid, up to which the mortar method is chosen. A coarser fluid takes means
 /// over many elements: neither operator is clearly better there, and interpolation keeps every node on the structure.
-pub(crate) const MORTAR_UP_TO: f64 = 3.0;
+pub(crate) const MORTAR_UP_TO: f64 = 5.0;
 
 /// The operator that a scene's choice comes to, with the coarsest facet of the interface.
 pub(crate) fn chosen(asked: schema::Transfer, coarsest: Option<&Coarsest>) -> schema::Transfer {
-    let coarse = coarsest.is_some_and(|coarsest| coarsest.ratio() > MORTAR_UP_TO);
+    // The ratio of lengths may be off by their last digits.
+    let coarse = coarsest.is_some_and(|coarsest| coarsest.ratio() > MORTAR_UP_TO * (1.0 + 1e-9));
     match asked {
         schema::Transfer::Automatic if coarse => schema::Transfer::Interpolation,
         schema::Transfer::Automatic => schema::Transfer::Mortar,

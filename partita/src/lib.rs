@@ -1,4 +1,4 @@
-//! Partitioned fluid-structure interaction from a scene file.
+//! Partitioned fluid-structure interaction from a scene file: what the program `partita` is made of, without a terminal.
 
 pub mod adapt;
 pub mod build;
@@ -12,9 +12,9 @@ mod nearest;
 pub mod output;
 pub mod plan;
 mod probe;
-pub mod progress;
 pub mod scene;
 pub mod session;
 pub mod stability;
 pub mod study;
 pub mod warning;
+pub mod watch;

@@ -45,8 +45,8 @@ pub use row::{Outcome, Row, to_csv};
 use store::Store;
 pub use store::{JOURNAL, MAP, PICTURE, StoreError, TABLE};
 
-use crate::progress::Progress;
 use crate::scene;
+use crate::watch::Watcher;
 
 /// How a map is carried out; nothing here changes its numbers.
 #[derive(Debug, Clone, Copy)]
@@ -55,8 +55,6 @@ pub struct Options<'a> {
     pub jobs: usize,
     /// Forget the cells that are finished.
     pub fresh: bool,
-    /// Draw no progress bar.
-    pub quiet: bool,
     /// Set from outside to give up the cells in progress.
     pub stop: &'a AtomicBool,
 }
@@ -80,10 +78,15 @@ const STACK: usize = 8 << 20;
 ///
 /// # Panics
 /// When the system gives no thread.
-pub fn run(map: &Map, dir: &Path, options: Options<'_>) -> Result<Ending, StoreError> {
+pub fn run(
+    map: &Map,
+    dir: &Path,
+    options: Options<'_>,
+    watcher: &mut dyn Watcher,
+) -> Result<Ending, StoreError> {
     let mut store = Store::open(dir, map, checksum(map), options.fresh)?;
     let open: Vec<usize> = (0..map.cells.len()).filter(|cell| !store.rows.contains_key(cell)).collect();
-    let progress = Progress::new(map.cells.len(), store.rows.len(), options.quiet);
+    watcher.begins(map.cells.len(), store.rows.len());
     let next = AtomicUsize::new(0);
     let (sender, receiver) = mpsc::channel();
     let kept = thread::scope(|scope| {
@@ -105,11 +108,11 @@ pub fn run(map: &Map, dir: &Path, options: Options<'_>) -> Result<Ending, StoreE
         drop(sender);
         receiver.into_iter().try_for_each(|(cell, row)| {
             store.keep(cell, row)?;
-            progress.reach(store.rows.len());
+            watcher.reaches(store.rows.len());
             Ok(())
         })
     });
-    progress.finish();
+    watcher.ends();
     kept?;
     if store.rows.len() < map.cells.len() {
         return Ok(Ending::Interrupted(store.rows.len()));

@@ -12,7 +12,7 @@ use crate::warning::Kind;
 const HEAD: &str = "\
 # Scene files
 
-<!-- Generated from the schema: `UPDATE_DOCS=1 cargo test -p partita scene_page` -->
+<!-- Generated from the schema: `UPDATE_DOCS=1 cargo test -p partita-cli scene_page` -->
 
 Every key of a scene file, from the documentation of the types that read it. A scene is TOML; numbers are in SI units.
 Where one of several choices is made, a choice that needs nothing else is a word (`acceleration = \"aitken\"`), any other

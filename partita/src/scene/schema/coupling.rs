@@ -68,7 +68,7 @@ pub enum Direction {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Transfer {
-    /// `"mortar"` where no edge of the fluid's interface is longer than 3 elements of the structure beside it, else
+    /// `"mortar"` where no edge of the fluid's interface is longer than 5 elements of the structure beside it, else
     /// `"interpolation"`.
     #[default]
     Automatic,

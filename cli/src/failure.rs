@@ -12,7 +12,6 @@ use partita::scene::SceneError;
 use partita::session::RunError;
 use partita::stability::StoreError;
 use partita::study::{StudyError, StudyFailure};
-use partita_mesh::vtu::VtuError;
 use serde_json::{Value, json};
 
 /// The scene or the command line is wrong.
@@ -39,9 +38,7 @@ impl Failure {
     /// What keeps a run from starting is the command line's fault: its folder cannot be used.
     pub(crate) fn before_the_first_step(error: RunError) -> Self {
         match error {
-            RunError::Output(
-                error @ (OutputError::Write { .. } | OutputError::Fields(VtuError::Write { .. })),
-            ) => Self {
+            RunError::Output(error) if error.is_refused_write() => Self {
                 code: WRONG_INPUT,
                 report: Complaint {
                     what: Complaint::from_display(&error).what,

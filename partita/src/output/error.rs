@@ -76,3 +76,11 @@ pub enum OutputError {
     #[error(transparent)]
     Fields(#[from] VtuError),
 }
+
+impl OutputError {
+    /// Whether the folder did not take a file, so that another folder helps.
+    #[must_use]
+    pub fn is_refused_write(&self) -> bool {
+        matches!(self, Self::Write { .. } | Self::Fields(VtuError::Write { .. }))
+    }
+}

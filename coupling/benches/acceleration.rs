@@ -26,7 +26,7 @@ fn iterate(accelerator: &mut dyn Accelerator, size: usize, step: usize) -> (Vec<
     let mut x = vec![0.0; size];
     for _ in 0..ITERATIONS {
         let r = residual(&x, step);
-        accelerator.propose(&mut x, &r, &Answer::default());
+        accelerator.propose(&mut x, &r, Answer::default());
     }
     let r = residual(&x, step);
     (x, r)
@@ -52,7 +52,7 @@ fn proposals(c: &mut Criterion) {
             let mut accelerator = method.build(size).expect("valid settings");
             for step in 0..STEPS {
                 let (x, r) = iterate(accelerator.as_mut(), size, step);
-                accelerator.step_converged(&x, &r, &Answer::default());
+                accelerator.step_converged(&x, &r, Answer::default());
             }
             // Every sample starts from the same iterate: the columns of this step are made anew, unmeasured.
             group.bench_function(BenchmarkId::new(name, size), |bench| {
@@ -63,7 +63,7 @@ fn proposals(c: &mut Criterion) {
                         let (x, r) = iterate(fresh.as_mut(), size, STEPS);
                         (fresh, x, r)
                     },
-                    |(fresh, x, r)| black_box(fresh.propose(x, r, &Answer::default())),
+                    |(fresh, x, r)| black_box(fresh.propose(x, r, Answer::default())),
                     criterion::BatchSize::LargeInput,
                 );
             });

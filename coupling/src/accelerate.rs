@@ -37,11 +37,11 @@ pub trait Accelerator: Send {
     }
 
     /// Replaces `x` by the next iterate, from the residual `r = x_tilde - x` that `x` led to.
-    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: &Answer) -> Proposal;
+    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: Answer) -> Proposal;
 
     /// The step is accepted. `x`, `r` and `answer` belong to its last iteration, which no proposal followed. Returns the
     /// columns dropped now.
-    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: &Answer) -> Vec<DroppedColumn>;
+    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: Answer) -> Vec<DroppedColumn>;
 
     /// The step is given up: back to the state before it, bit for bit.
     fn step_failed(&mut self);

@@ -142,7 +142,7 @@ pub fn solve_step(
         if !converged && !at_bound && growth.is_none() {
             clock = Instant::now();
             let answer = record.answer();
-            record.acceleration = Some(accelerator.propose(&mut interface.x, &interface.r, &answer));
+            record.acceleration = Some(accelerator.propose(&mut interface.x, &interface.r, answer));
             record.seconds.acceleration += lap(&mut clock);
         }
         record.seconds = record.seconds.to_the_microsecond();

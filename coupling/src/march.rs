@@ -266,7 +266,7 @@ impl<A: Participant, B: Participant> March<A, B> {
         self.second.commit();
         let last = self.history.last().expect("a finished step has at least one iteration");
         let answer = last.answer();
-        let dropped = self.choices.accelerator.step_converged(&self.interface.x, &self.interface.r, &answer);
+        let dropped = self.choices.accelerator.step_converged(&self.interface.x, &self.interface.r, answer);
         self.work = self.interface.work_since(&self.past.newest().displacement);
         self.past.push(clock.time, &self.interface.x_tilde);
         self.clock = clock;

@@ -69,7 +69,7 @@ impl Aitken {
 }
 
 impl Accelerator for Aitken {
-    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: &Answer) -> Proposal {
+    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: Answer) -> Proposal {
         let secant = match (answer.answered, self.answered) {
             (true, true) => self.secant(x, r).map(Some),
             (true, false) => Ok(None),
@@ -88,7 +88,7 @@ impl Accelerator for Aitken {
         Proposal { dropped: dropped.into_iter().collect(), ..Proposal::relaxation(omega) }
     }
 
-    fn step_converged(&mut self, _: &[f64], _: &[f64], _: &Answer) -> Vec<DroppedColumn> {
+    fn step_converged(&mut self, _: &[f64], _: &[f64], _: Answer) -> Vec<DroppedColumn> {
         self.committed = self.trial.or(self.committed);
         self.start_step();
         Vec::new()
@@ -124,7 +124,7 @@ mod tests {
         let mut x = [0.0];
         for _ in 0..2 {
             let r = [a + lambda * x[0] - x[0]];
-            aitken.propose(&mut x, &r, &Answer::default());
+            aitken.propose(&mut x, &r, Answer::default());
         }
         assert!((x[0] - a / (1.0 - lambda)).abs() < 1e-14);
     }
@@ -134,7 +134,7 @@ mod tests {
         let mut aitken = Aitken::new(0.5, 2).unwrap();
         let mut x = [0.0; 2];
         for _ in 0..3 {
-            assert_eq!(aitken.propose(&mut x, &[0.0, 0.0], &Answer::default()).omega, Some(0.5));
+            assert_eq!(aitken.propose(&mut x, &[0.0, 0.0], Answer::default()).omega, Some(0.5));
         }
         assert_eq!(x.map(f64::to_bits), [0; 2]);
     }
@@ -144,11 +144,11 @@ mod tests {
         let mut aitken = Aitken::new(0.5, 1).unwrap();
         let mut x = [0.0];
         let answer = Answer::default();
-        aitken.propose(&mut x, &[1.0], &answer);
-        aitken.propose(&mut x, &[0.5], &answer);
-        aitken.step_converged(&x, &[0.0], &answer);
+        aitken.propose(&mut x, &[1.0], answer);
+        aitken.propose(&mut x, &[0.5], answer);
+        aitken.step_converged(&x, &[0.0], answer);
         assert_eq!(aitken.state(), AcceleratorState::Aitken { omega: Some(1.0) });
-        assert_eq!(aitken.propose(&mut x, &[1.0], &answer).omega, Some(0.5));
+        assert_eq!(aitken.propose(&mut x, &[1.0], answer).omega, Some(0.5));
     }
 
     #[test]
@@ -157,12 +157,12 @@ mod tests {
         let (a, lambda) = (3.0, -7.5);
         let mut aitken = Aitken::new(0.05, 1).unwrap();
         let mut x = [0.0];
-        aitken.propose(&mut x, &[a], &Answer::default());
+        aitken.propose(&mut x, &[a], Answer::default());
         let stale = [a - x[0]];
-        let proposal = aitken.propose(&mut x, &stale, &Answer { answered: false });
+        let proposal = aitken.propose(&mut x, &stale, Answer { answered: false });
         assert_eq!((proposal.omega, proposal.dropped[0].reason), (Some(0.05), DropReason::NoAnswer));
         let r = [a + lambda * x[0] - x[0]];
-        aitken.propose(&mut x, &r, &Answer::default());
+        aitken.propose(&mut x, &r, Answer::default());
         assert!((x[0] - a / (1.0 - lambda)).abs() < 1e-14);
     }
 }

@@ -25,12 +25,12 @@ impl Constant {
 }
 
 impl Accelerator for Constant {
-    fn propose(&mut self, x: &mut [f64], r: &[f64], _: &Answer) -> Proposal {
+    fn propose(&mut self, x: &mut [f64], r: &[f64], _: Answer) -> Proposal {
         add_scaled(self.omega, r, x);
         Proposal::relaxation(self.omega)
     }
 
-    fn step_converged(&mut self, _: &[f64], _: &[f64], _: &Answer) -> Vec<DroppedColumn> {
+    fn step_converged(&mut self, _: &[f64], _: &[f64], _: Answer) -> Vec<DroppedColumn> {
         Vec::new()
     }
 

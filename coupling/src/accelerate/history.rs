@@ -174,13 +174,7 @@ impl Secants {
     }
 
     /// Adds the differences to the last iterate of this step and filters. `jr = J_prev r`, or empty.
-    pub(crate) fn observe(
-        &mut self,
-        x: &[f64],
-        r: &[f64],
-        jr: &[f64],
-        answer: &Answer,
-    ) -> Vec<DroppedColumn> {
+    pub(crate) fn observe(&mut self, x: &[f64], r: &[f64], jr: &[f64], answer: Answer) -> Vec<DroppedColumn> {
         let first = !std::mem::replace(&mut self.begun, true);
         let waited = self.waits;
         self.waits = !(answer.answered || first || waited);
@@ -265,7 +259,7 @@ mod tests {
         let mut dropped = Vec::new();
         for x in iterates {
             let r = [3.0 - 2.0 * x[0], 5.0 - 3.0 * x[1]];
-            dropped.extend(secants.observe(x, &r, &[], &Answer::default()));
+            dropped.extend(secants.observe(x, &r, &[], Answer::default()));
         }
         dropped
     }
@@ -322,7 +316,7 @@ mod tests {
         let mut secants = Secants::new(Filter::None);
         observe_all(&mut secants, &[[0.0, 0.0]]);
         // The input moved, the output did not: it belongs to the one before.
-        let dropped = secants.observe(&[1.0, 1.0], &[2.0, 4.0], &[], &UNANSWERED);
+        let dropped = secants.observe(&[1.0, 1.0], &[2.0, 4.0], &[], UNANSWERED);
         assert_eq!(dropped, [DroppedColumn { steps_ago: 0, column: 0, reason: DropReason::NoAnswer }]);
         assert!(secants.waits());
         // The same input, answered now: no difference of inputs, no column.
@@ -337,7 +331,7 @@ mod tests {
     fn x_waits_once_and_never_in_the_first_iteration() {
         let mut secants = Secants::new(Filter::None);
         let waits = [(); 5].map(|()| {
-            secants.observe(&[0.0], &[1.0], &[], &UNANSWERED);
+            secants.observe(&[0.0], &[1.0], &[], UNANSWERED);
             secants.waits()
         });
         assert_eq!(waits, [false, true, false, true, false]);
@@ -349,9 +343,8 @@ mod tests {
         let no_change = [DroppedColumn { steps_ago: 0, column: 0, reason: DropReason::NoChange }];
         for (step, expected) in [(1e-3, 1), (1e-14, 1), (1e-17, 0)] {
             let mut secants = Secants::new(Filter::None);
-            secants.observe(&[1.0], &[1.0], &[], &Answer::default());
-            let dropped =
-                secants.observe(&[1.0 + 20.0 * step], &[1.0 - 10.0 * step], &[], &Answer::default());
+            secants.observe(&[1.0], &[1.0], &[], Answer::default());
+            let dropped = secants.observe(&[1.0 + 20.0 * step], &[1.0 - 10.0 * step], &[], Answer::default());
             assert_eq!(secants.len(), expected, "{step}");
             assert_eq!(dropped == no_change, expected == 0);
         }

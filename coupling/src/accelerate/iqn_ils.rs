@@ -41,7 +41,7 @@ impl IqnIls {
 }
 
 impl Accelerator for IqnIls {
-    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: &Answer) -> Proposal {
+    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: Answer) -> Proposal {
         let first = self.secants.at_first_iteration();
         self.apply_initial_jacobian(r);
         let dropped = self.secants.observe(x, r, &self.b, answer);
@@ -55,7 +55,7 @@ impl Accelerator for IqnIls {
         Proposal { omega: None, columns: self.secants.len(), dropped }
     }
 
-    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: &Answer) -> Vec<DroppedColumn> {
+    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: Answer) -> Vec<DroppedColumn> {
         let mut dropped = Vec::new();
         if self.settings.keep_last_differences {
             self.apply_initial_jacobian(r);

@@ -98,7 +98,7 @@ impl IqnImvls {
 }
 
 impl Accelerator for IqnImvls {
-    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: &Answer) -> Proposal {
+    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: Answer) -> Proposal {
         let first = self.secants.at_first_iteration();
         self.apply_previous_jacobian(r);
         let dropped = self.secants.observe(x, r, &self.b, answer);
@@ -114,7 +114,7 @@ impl Accelerator for IqnImvls {
         Proposal { omega: None, columns: self.secants.len() + past, dropped }
     }
 
-    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: &Answer) -> Vec<DroppedColumn> {
+    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: Answer) -> Vec<DroppedColumn> {
         let mut dropped = Vec::new();
         if self.settings.keep_last_differences {
             self.apply_previous_jacobian(r);

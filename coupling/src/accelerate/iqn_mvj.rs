@@ -105,7 +105,7 @@ fn update(jacobian: &mut Vec<f64>, unseen: f64, secants: &Secants, size: usize) 
 }
 
 impl Accelerator for IqnMvj {
-    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: &Answer) -> Proposal {
+    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: Answer) -> Proposal {
         let first = self.secants.at_first_iteration();
         self.apply_previous_jacobian(r);
         let dropped = self.secants.observe(x, r, &self.b, answer);
@@ -120,7 +120,7 @@ impl Accelerator for IqnMvj {
         Proposal { omega: None, columns: self.secants.len(), dropped }
     }
 
-    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: &Answer) -> Vec<DroppedColumn> {
+    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: Answer) -> Vec<DroppedColumn> {
         let mut dropped = Vec::new();
         if self.settings.keep_last_differences {
             self.apply_previous_jacobian(r);

@@ -30,7 +30,7 @@ pub fn check_accelerator(
         continues_from_its_state(name, &problem, accelerator.as_mut(), build().as_mut(), step)?;
         problem.solve(name, accelerator.as_mut(), step)?;
     }
-    accelerator.step_converged(&vec![0.0; size], &vec![0.0; size], &Answer::default());
+    accelerator.step_converged(&vec![0.0; size], &vec![0.0; size], Answer::default());
     problem.solve(name, accelerator.as_mut(), 4)?;
     Ok(())
 }
@@ -75,7 +75,7 @@ impl Problem {
         expect(name, size < DONE, || {
             format!("step {step} is not solved after {MAX_ITERATIONS} iterations: relative residual {size:e}")
         })?;
-        accelerator.step_converged(&x, &r, &Answer::default());
+        accelerator.step_converged(&x, &r, Answer::default());
         Ok(iterates)
     }
 
@@ -90,7 +90,7 @@ impl Problem {
         let target = DONE * norm(&r);
         let mut iterates = vec![x.clone()];
         while iterates.len() < iterations && norm(&r) >= target {
-            accelerator.propose(&mut x, &r, &Answer::default());
+            accelerator.propose(&mut x, &r, Answer::default());
             r = self.residual(&x, step);
             iterates.push(x.clone());
         }
@@ -103,10 +103,10 @@ fn stands_still_at_zero(name: &str, size: usize, accelerator: &mut dyn Accelerat
     let zero = x.clone();
     for _ in 0..2 {
         for _ in 0..3 {
-            accelerator.propose(&mut x, &zero, &Answer::default());
+            accelerator.propose(&mut x, &zero, Answer::default());
             expect(name, x == zero, || "a zero residual at zero does not stay there".to_owned())?;
         }
-        accelerator.step_converged(&x, &zero, &Answer::default());
+        accelerator.step_converged(&x, &zero, Answer::default());
     }
     Ok(())
 }

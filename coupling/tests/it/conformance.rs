@@ -115,15 +115,15 @@ struct Faulty {
 }
 
 impl Accelerator for Faulty {
-    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: &Answer) -> Proposal {
+    fn propose(&mut self, x: &mut [f64], r: &[f64], answer: Answer) -> Proposal {
         self.inner.propose(x, r, answer)
     }
-    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: &Answer) -> Vec<DroppedColumn> {
+    fn step_converged(&mut self, x: &[f64], r: &[f64], answer: Answer) -> Vec<DroppedColumn> {
         self.inner.step_converged(x, r, answer)
     }
     fn step_failed(&mut self) {
         if self.forgets_to_forget {
-            self.inner.step_converged(&[0.0; 6], &[0.0; 6], &Answer::default());
+            self.inner.step_converged(&[0.0; 6], &[0.0; 6], Answer::default());
         } else {
             self.inner.step_failed();
         }

@@ -51,12 +51,12 @@ fn solve(accelerator: &mut dyn Accelerator, map: &Map, step: usize, tolerance: f
     let mut r = map.residual(&x, step);
     let mut iterations = 1;
     while norm(&r) >= tolerance && iterations < most {
-        accelerator.propose(&mut x, &r, &Answer::default());
+        accelerator.propose(&mut x, &r, Answer::default());
         r = map.residual(&x, step);
         iterations += 1;
     }
     assert!(norm(&r) < tolerance, "|r| = {:e} after {iterations} iterations", norm(&r));
-    accelerator.step_converged(&x, &r, &Answer::default());
+    accelerator.step_converged(&x, &r, Answer::default());
 }
 
 fn methods(settings: QuasiNewton) -> [Acceleration; 3] {
@@ -79,10 +79,8 @@ fn assert_same_proposals(
     let mut iterations = 0;
     while norm(&r) >= tolerance {
         let mut other = x.clone();
-        let proposals = [
-            first.propose(&mut x, &r, &Answer::default()),
-            second.propose(&mut other, &r, &Answer::default()),
-        ];
+        let proposals =
+            [first.propose(&mut x, &r, Answer::default()), second.propose(&mut other, &r, Answer::default())];
         assert_eq!(proposals[0].dropped, proposals[1].dropped, "step {step}, iteration {iterations}");
         let apart: Vec<f64> = x.iter().zip(&other).map(|(a, b)| a - b).collect();
         let apart = norm(&apart) / norm(&x);
@@ -91,8 +89,8 @@ fn assert_same_proposals(
         iterations += 1;
         assert!(iterations < 60, "|r| = {:e} after {iterations} iterations", norm(&r));
     }
-    first.step_converged(&x, &r, &Answer::default());
-    second.step_converged(&x, &r, &Answer::default());
+    first.step_converged(&x, &r, Answer::default());
+    second.step_converged(&x, &r, Answer::default());
 }
 
 #[test]
@@ -180,7 +178,7 @@ impl Textbook {
 }
 
 impl Accelerator for Textbook {
-    fn propose(&mut self, x: &mut [f64], r: &[f64], _: &Answer) -> Proposal {
+    fn propose(&mut self, x: &mut [f64], r: &[f64], _: Answer) -> Proposal {
         let jacobian = self.observe(x, r);
         let known = jacobian.amax() > 0.0;
         let update = if known { &jacobian * DVector::from_column_slice(r) } else { DVector::zeros(x.len()) };
@@ -189,7 +187,7 @@ impl Accelerator for Textbook {
         }
         Proposal::default()
     }
-    fn step_converged(&mut self, x: &[f64], r: &[f64], _: &Answer) -> Vec<DroppedColumn> {
+    fn step_converged(&mut self, x: &[f64], r: &[f64], _: Answer) -> Vec<DroppedColumn> {
         self.jacobian = self.observe(x, r);
         self.step_failed();
         Vec::new()
@@ -229,7 +227,7 @@ fn relaxed_first_iteration_is_a_relaxation_in_every_step() {
             solve(accelerator.as_mut(), &map, 1, 1e-7, 60);
             let mut x = vec![0.0; n];
             let r = map.residual(&x, 2);
-            let proposal = accelerator.propose(&mut x, &r, &Answer::default());
+            let proposal = accelerator.propose(&mut x, &r, Answer::default());
             assert_eq!(proposal.omega.is_some(), relax_first_iteration, "{method:?}");
             if relax_first_iteration {
                 let relaxed: Vec<f64> = r.iter().map(|r| PLAIN.omega_0 * r).collect();
@@ -248,12 +246,12 @@ fn what_no_difference_tells_of_is_relaxed() {
         let mut accelerator = method.build(n).unwrap();
         let (mut x, mut before) = (vec![0.0; n], vec![0.0; n]);
         let mut seen = map.residual(&x, 1);
-        accelerator.propose(&mut x, &seen, &Answer::default());
+        accelerator.propose(&mut x, &seen, Answer::default());
         // One column: the residual across it is multiplied by the factor, whatever the matrix.
         let r = DVector::from_vec(map.residual(&x, 1));
         let v = (&r - DVector::from_vec(std::mem::take(&mut seen))).normalize();
         before.copy_from_slice(&x);
-        accelerator.propose(&mut x, r.as_slice(), &Answer::default());
+        accelerator.propose(&mut x, r.as_slice(), Answer::default());
         let unseen = &r - &v * v.dot(&r);
         let moved = DVector::from_vec(x) - DVector::from_vec(before);
         let along = map_column(&map, &v);
@@ -280,10 +278,10 @@ fn last_differences_of_a_step_are_kept_or_dropped_as_asked() {
             // Four iterations have three differences; the last is not proposed from.
             for _ in 0..3 {
                 let r = map.residual(&x, 1);
-                accelerator.propose(&mut x, &r, &Answer::default());
+                accelerator.propose(&mut x, &r, Answer::default());
             }
             let r = map.residual(&x, 1);
-            accelerator.step_converged(&x, &r, &Answer::default());
+            accelerator.step_converged(&x, &r, Answer::default());
             let state = serde_json::to_value(accelerator.state()).unwrap();
             let kept = match method {
                 Acceleration::IqnIls(_) => state["iqn_ils"]["columns"]["all"].as_array().unwrap().len(),
@@ -313,7 +311,7 @@ fn dependent_columns_are_dropped_and_recorded() {
         let mut dropped = Vec::new();
         for _ in 0..6 {
             let r = map.residual(&x, 1);
-            dropped.extend(accelerator.propose(&mut x, &r, &Answer::default()).dropped);
+            dropped.extend(accelerator.propose(&mut x, &r, Answer::default()).dropped);
         }
         assert!(!dropped.is_empty(), "{method:?}");
         for column in &dropped {
@@ -335,7 +333,7 @@ fn frozen_output_stalls_no_method() {
         for iteration in 0..4 {
             let r: Vec<f64> = x_tilde.iter().zip(&x).map(|(x_tilde, x)| x_tilde - x).collect();
             let before = norm(&r);
-            let proposal = accelerator.propose(&mut x, &r, &Answer::default());
+            let proposal = accelerator.propose(&mut x, &r, Answer::default());
             assert_eq!(proposal.dropped.len(), usize::from(iteration > 0), "{method:?}");
             assert_eq!(proposal.columns, 0);
             let after: Vec<f64> = x_tilde.iter().zip(&x).map(|(x_tilde, x)| x_tilde - x).collect();

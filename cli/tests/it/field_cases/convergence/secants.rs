@@ -97,14 +97,14 @@ fn relaxation_completes_where_it_is_stable() {
 fn dropped_columns_are_counted() {
     let case = Case::new("false_secants");
     coupling_iterations(&case, &["fluid.newton.tolerance.absolute=1e-6"]);
-    let (mut unanswered, mut in_iterations, mut in_steps) = (0, 0, 0);
+    let (mut unanswered, mut in_iterations, mut in_steps) = (0, 0, 0_u64);
     for line in case.text("out/run.jsonl").lines() {
         let record: Value = serde_json::from_str(line).expect("JSON");
         if let Some(dropped) = record["iteration"]["acceleration"]["dropped"].as_array() {
-            in_iterations += dropped.len();
+            in_iterations += dropped.len() as u64;
             unanswered += dropped.iter().filter(|column| column["reason"] == "no_answer").count();
         }
-        in_steps += record["step"]["dropped_columns"].as_u64().unwrap_or(0) as usize;
+        in_steps += record["step"]["dropped_columns"].as_u64().unwrap_or(0);
     }
     assert!(unanswered > 0);
     assert!(in_steps > in_iterations, "{in_steps} and {in_iterations}: the last iterations count, too");

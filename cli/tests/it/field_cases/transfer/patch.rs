@@ -76,18 +76,15 @@ fn uneven_block() -> String {
     let columns = [0.0, 0.3, 0.45, 0.8, 1.3, 1.55, 2.0];
     let node = |i: usize, j: usize| 1 + i + j * columns.len();
     let last = columns.len() - 1;
-    let mut nodes = String::new();
-    let mut elements = String::new();
-    let mut count = 0;
+    let (mut nodes, mut elements) = (Vec::new(), Vec::new());
     for j in 0..3 {
         for (i, x) in columns.iter().enumerate() {
-            nodes += &format!("{} {x} {} 0\n", node(i, j), j as f64 / 2.0 - 1.0);
+            nodes.push(format!("{} {x} {} 0", node(i, j), j as f64 / 2.0 - 1.0));
         }
     }
     let mut add = |kind: usize, group: usize, nodes: &[usize]| {
-        count += 1;
         let nodes: Vec<String> = nodes.iter().map(ToString::to_string).collect();
-        elements += &format!("{count} {kind} 2 {group} {group} {}\n", nodes.join(" "));
+        elements.push(format!("{} {kind} 2 {group} {group} {}", elements.len() + 1, nodes.join(" ")));
     };
     for i in 0..last {
         add(1, 1, &[node(i, 2), node(i + 1, 2)]);
@@ -98,8 +95,11 @@ fn uneven_block() -> String {
     }
     format!(
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"top\"\n1 2 \"bottom\"\n2 3 \"block\"\n\
-         $EndPhysicalNames\n$Nodes\n{}\n{nodes}$EndNodes\n$Elements\n{count}\n{elements}$EndElements\n",
-        3 * columns.len()
+         $EndPhysicalNames\n$Nodes\n{}\n{}\n$EndNodes\n$Elements\n{}\n{}\n$EndElements\n",
+        nodes.len(),
+        nodes.join("\n"),
+        elements.len(),
+        elements.join("\n")
     )
 }
 

@@ -5,6 +5,7 @@
 //! lasts, [`step_failed`](Accelerator::step_failed) forgets it.
 
 mod aitken;
+mod column;
 mod constant;
 mod filter;
 mod history;
@@ -18,14 +19,14 @@ use std::collections::VecDeque;
 use serde::{Deserialize, Serialize};
 
 pub use aitken::Aitken;
+pub use column::{Column, Columns};
 pub use constant::Constant;
 pub use filter::Filter;
-pub use history::{Column, Columns};
 pub use iqn_ils::IqnIls;
 pub use iqn_imvls::{IqnImvls, StepInverse};
 pub use iqn_mvj::IqnMvj;
 
-use crate::error::SetupError;
+use crate::setup::SetupError;
 use crate::vector::add_scaled;
 
 /// Turns `(x, r)` into the next interface displacement.

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::SetupError;
 use crate::record::{FieldRecord, IterationRecord, StepHistory};
+use crate::setup::SetupError;
 
 /// A bound, relative or absolute.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -13,11 +13,11 @@
 
 use std::time::Instant;
 
+use crate::choices::{AtLimit, Choices};
 use crate::divergence;
-use crate::error::{IdleField, ParticipantError, StepFailure};
-use crate::march::{AtLimit, Choices};
+use crate::error::{IdleField, StepFailure};
 use crate::observe::Observer;
-use crate::participant::Participant;
+use crate::participant::{Participant, ParticipantError};
 use crate::port::{self, Block};
 use crate::record::{FieldRecord, FieldSeconds, IterationRecord, Seconds, StepHistory};
 use crate::transfer::Transfers;

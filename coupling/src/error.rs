@@ -1,64 +1,12 @@
-//! What can go wrong, where, and what to try.
+//! What can go wrong in a step, where, and what to try.
 
-use std::error::Error;
 use std::fmt;
 
 use thiserror::Error;
 
 use crate::divergence::Growth;
-use crate::participant::Step;
+use crate::participant::{ParticipantError, Step};
 use crate::record::StepHistory;
-
-/// A field could not be advanced.
-#[derive(Debug)]
-pub struct ParticipantError {
-    /// The field's name.
-    pub field: String,
-    /// What happened and where, with units.
-    pub message: String,
-    /// What to try.
-    pub hint: Option<String>,
-    /// The field's own error.
-    pub source: Option<Box<dyn Error + Send + Sync>>,
-}
-
-impl ParticipantError {
-    /// An error of `field`; `message` says what happened and where.
-    #[must_use]
-    pub fn new(field: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { field: field.into(), message: message.into(), hint: None, source: None }
-    }
-
-    /// Adds what to try.
-    #[must_use]
-    pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
-        self.hint = Some(hint.into());
-        self
-    }
-
-    /// Keeps the error that caused this one.
-    #[must_use]
-    pub fn with_source(mut self, source: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
-        self.source = Some(source.into());
-        self
-    }
-}
-
-impl fmt::Display for ParticipantError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.field, self.message)?;
-        match &self.hint {
-            Some(hint) => write!(f, "\nhint: {hint}"),
-            None => Ok(()),
-        }
-    }
-}
-
-impl Error for ParticipantError {
-    fn source(&self) -> Option<&(dyn Error + 'static)> {
-        self.source.as_deref().map(|source| source as &(dyn Error + 'static))
-    }
-}
 
 /// A step could not be finished. Both fields are back at the committed state, so it can be tried again.
 #[derive(Error)]
@@ -201,79 +149,10 @@ fn outlook(stands_since: Option<usize>, idle: &[IdleField], hardly_moves: Option
     }
 }
 
-/// The parts of a coupled problem do not fit together.
-#[derive(Debug, Error, PartialEq)]
-pub enum SetupError {
-    /// The two participants and the transfers list different numbers of blocks.
-    #[error(
-        "{first} has {first_input} input and {first_output} output blocks, {second} has {second_input} and {second_output}, and there are {transfers} transfers\nhint: one block and one transfer an interface"
-    )]
-    BlockCount {
-        /// Name of the first participant.
-        first: String,
-        /// Name of the second participant.
-        second: String,
-        /// Input blocks of the first.
-        first_input: usize,
-        /// Output blocks of the first.
-        first_output: usize,
-        /// Input blocks of the second.
-        second_input: usize,
-        /// Output blocks of the second.
-        second_output: usize,
-        /// Transfers given.
-        transfers: usize,
-    },
-    /// Two blocks that meet do not agree.
-    #[error("interface {interface}: {problem}")]
-    BlockMismatch {
-        /// Name of the interface.
-        interface: String,
-        /// What disagrees.
-        problem: String,
-    },
-    /// A setting is out of its range.
-    #[error("{setting} = {value} is not allowed\nhint: {hint}")]
-    Setting {
-        /// Name of the setting.
-        setting: &'static str,
-        /// Its value.
-        value: String,
-        /// What is allowed.
-        hint: &'static str,
-    },
-    /// A transfer matrix has an entry that does not fit.
-    #[error("transfer row {row}: {problem}")]
-    TransferRow {
-        /// Row, that is point of the first participant.
-        row: usize,
-        /// What is wrong.
-        problem: String,
-    },
-    /// A saved state belongs to other choices or to another interface.
-    #[error(
-        "the saved state of the {what} does not fit: {problem}\nhint: resume with the choices the state was saved with"
-    )]
-    State {
-        /// Whose state it is.
-        what: &'static str,
-        /// What disagrees.
-        problem: String,
-    },
-}
-
-impl SetupError {
-    pub(crate) fn setting(setting: &'static str, value: impl fmt::Display, hint: &'static str) -> Self {
-        Self::Setting { setting, value: value.to_string(), hint }
-    }
-
-    pub(crate) fn state(what: &'static str, problem: impl Into<String>) -> Self {
-        Self::State { what, problem: problem.into() }
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::error::Error as _;
+
     use super::*;
 
     #[test]

@@ -44,6 +44,8 @@
 //! ```
 
 pub mod accelerate;
+pub mod choices;
+pub mod clock;
 pub mod conformance;
 pub mod criterion;
 pub mod dirichlet_neumann;
@@ -58,21 +60,27 @@ pub mod port;
 pub mod predict;
 pub mod record;
 pub mod retry;
+pub mod setup;
 pub mod transfer;
 mod vector;
 
 pub use accelerate::{
     Acceleration, Accelerator, AcceleratorState, Answer, DroppedColumn, Filter, Proposal, QuasiNewton,
 };
+pub use choices::{AtLimit, Choices, CouplingSettings};
+pub use clock::Clock;
 pub use criterion::{Bound, Criterion};
 pub use divergence::Growth;
-pub use error::{ParticipantError, SetupError, StepError, StepFailure};
-pub use march::{AtLimit, Choices, CouplingSettings, March, MarchState};
+pub use error::{StepError, StepFailure};
+pub use march::{March, MarchState};
 pub use observe::Observer;
-pub use participant::{Change, Effort, NewtonLimit, Participant, PhaseTimes, Step, WorkDetails};
+pub use participant::{
+    Change, Effort, NewtonLimit, Participant, ParticipantError, PhaseTimes, Step, WorkDetails,
+};
 pub use policy::{Limits, NewtonPolicy, Policy};
 pub use port::{Block, Quantity};
 pub use predict::Predictor;
-pub use record::{FieldRecord, IterationRecord, Record, StepHistory, StepRecord};
-pub use retry::{RetryRecord, StepSizes};
+pub use record::{FieldRecord, IterationRecord, Record, RetryRecord, StepHistory, StepRecord};
+pub use retry::StepSizes;
+pub use setup::SetupError;
 pub use transfer::{IdentityTransfer, MatrixTransfer, Transfer};

@@ -2,116 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::accelerate::{Acceleration, Accelerator, AcceleratorState, DroppedColumn};
-use crate::criterion::Criterion;
+use crate::accelerate::{AcceleratorState, DroppedColumn};
+use crate::choices::{Choices, CouplingSettings};
+use crate::clock::Clock;
 use crate::dirichlet_neumann::{Interface, solve_step};
-use crate::error::{SetupError, StepError, StepFailure};
+use crate::error::{StepError, StepFailure};
 use crate::observe::Observer;
 use crate::participant::{Participant, Step};
-use crate::policy::{NewtonPolicy, Policy, PolicyState};
-use crate::predict::{Past, Predictor};
+use crate::policy::PolicyState;
+use crate::predict::Past;
 use crate::record::{StepHistory, StepRecord};
+use crate::setup::SetupError;
 use crate::transfer::{Transfer, Transfers};
-
-/// What happens when a step reaches the iteration bound.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum AtLimit {
-    /// The step fails, with its history.
-    #[default]
-    Fail,
-    /// The step is accepted; its record says `converged: false`.
-    Accept,
-}
-
-/// The choices of a coupled run, as a scene names them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CouplingSettings {
-    /// From one iterate to the next.
-    pub acceleration: Acceleration,
-    /// Newton limits of the calls.
-    pub policy: Policy,
-    /// When a step is done.
-    pub criterion: Criterion,
-    /// Where a step starts.
-    pub predictor: Predictor,
-    /// Bound of the coupling iterations of one step.
-    pub max_iterations: usize,
-    /// What happens at the bound.
-    pub at_limit: AtLimit,
-}
-
-impl CouplingSettings {
-    /// Checks the settings and makes the objects they name, for an interface of `size` unknowns.
-    ///
-    /// # Errors
-    /// When a setting is out of its range.
-    pub fn build(&self, size: usize) -> Result<Choices, SetupError> {
-        self.policy.validate()?;
-        self.criterion.validate()?;
-        if self.max_iterations == 0 {
-            return Err(SetupError::setting("max_iterations", 0, "allow at least one coupling iteration"));
-        }
-        Ok(Choices {
-            accelerator: self.acceleration.build(size)?,
-            policy: Box::new(self.policy),
-            criterion: self.criterion.clone(),
-            predictor: self.predictor,
-            max_iterations: self.max_iterations,
-            at_limit: self.at_limit,
-        })
-    }
-}
-
-/// The choices of a coupled run, ready to work. Each can be exchanged without the others noticing.
-pub struct Choices {
-    /// From one iterate to the next.
-    pub accelerator: Box<dyn Accelerator>,
-    /// Newton limits of the calls.
-    pub policy: Box<dyn NewtonPolicy>,
-    /// When a step is done.
-    pub criterion: Criterion,
-    /// Where a step starts.
-    pub predictor: Predictor,
-    /// Bound of the coupling iterations of one step.
-    pub max_iterations: usize,
-    /// What happens at the bound.
-    pub at_limit: AtLimit,
-}
-
-/// Which step comes next, and when.
-///
-/// While the size of the steps stays the same, times are `start + n dt` and gather no round-off.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Clock {
-    /// Accepted steps.
-    pub steps: usize,
-    /// Time reached \[s\].
-    pub time: f64,
-    /// Size of the last steps \[s\]; 0 before the first.
-    pub dt: f64,
-    /// Where the row of equal steps began \[s\].
-    pub since: f64,
-    /// Accepted steps of that row.
-    pub row: usize,
-}
-
-impl Clock {
-    /// A clock that starts at `time` \[s\].
-    #[must_use]
-    pub fn new(time: f64) -> Self {
-        Self { steps: 0, time, dt: 0.0, since: time, row: 0 }
-    }
-
-    /// The clock after one more step of size `dt` \[s\].
-    #[must_use]
-    pub fn after(self, dt: f64) -> Self {
-        let same = dt.to_bits() == self.dt.to_bits();
-        let (since, row) = if same { (self.since, self.row + 1) } else { (self.time, 1) };
-        Self { steps: self.steps + 1, time: since + row as f64 * dt, dt, since, row }
-    }
-}
 
 /// All coupling state between two steps; the participants' own states are not part of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

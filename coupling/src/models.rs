@@ -13,7 +13,7 @@ pub mod tube;
 
 pub use field::{Field, Model};
 
-use crate::error::SetupError;
+use crate::setup::SetupError;
 
 /// A property of a model that has to be positive.
 fn check_positive(setting: &'static str, value: f64) -> Result<(), SetupError> {

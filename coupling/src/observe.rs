@@ -1,7 +1,6 @@
 //! Watching a run.
 
-use crate::record::{IterationRecord, Record, StepRecord};
-use crate::retry::RetryRecord;
+use crate::record::{IterationRecord, Record, RetryRecord, StepRecord};
 
 /// Is told of every iteration and of every finished step, as soon as it is over.
 pub trait Observer {

@@ -5,8 +5,11 @@ use std::ops::{AddAssign, Sub};
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::ParticipantError;
 use crate::port::Block;
+
+mod error;
+
+pub use error::ParticipantError;
 
 /// The time step from `t_n` to `t_{n+1}`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

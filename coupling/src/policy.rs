@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::criterion::Criterion;
-use crate::error::SetupError;
 use crate::participant::NewtonLimit;
 use crate::record::StepHistory;
+use crate::setup::SetupError;
 
 /// The limits of the two calls of one coupling iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -9,7 +9,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::accelerate::{Answer, DroppedColumn, Proposal};
 use crate::participant::{Change, Effort, NewtonLimit, PhaseTimes, Step, WorkDetails};
-use crate::retry::RetryRecord;
+
+mod retry;
+
+pub use retry::RetryRecord;
 
 /// One line of a run's record: `{"iteration": {...}}`, `{"step": {...}}` or `{"retry": {...}}`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -13,13 +13,12 @@
 //! are stable for steps that grow by factors below `1 + sqrt(2)` (Hairer, Norsett, Wanner, *Solving Ordinary Differential
 //! Equations I*, section III.5). Where the run stands follows from its clock alone: a checkpoint need not know of it.
 
-use serde::{Deserialize, Serialize};
-
+use crate::clock::Clock;
 use crate::error::StepError;
-use crate::march::{Clock, March};
+use crate::march::March;
 use crate::observe::Observer;
 use crate::participant::Participant;
-use crate::record::StepRecord;
+use crate::record::{RetryRecord, StepRecord};
 
 /// The sizes that the steps of a run may have: `dt / 2^k`, `k = 0 ... halvings`. The grid starts at t = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,34 +86,16 @@ impl StepSizes {
     }
 }
 
-/// A step that failed and is tried again with half its size.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct RetryRecord {
-    /// Number of the step, counted from 1.
-    pub step: usize,
-    /// The time at the end of what failed \[s\].
-    pub time: f64,
-    /// The size that failed \[s\].
-    pub dt: f64,
-    /// The size that is tried next \[s\].
-    pub next_dt: f64,
-    /// The coupling iteration that failed, counted from 1; 0 while the step was being opened.
-    pub iteration: usize,
-    /// Why.
-    pub cause: String,
-}
-
-impl RetryRecord {
-    fn new(error: &StepError, next_dt: f64) -> Self {
-        let cause = error.cause.to_string();
-        Self {
-            step: error.step.index,
-            time: error.step.time,
-            dt: error.step.dt,
-            next_dt,
-            iteration: error.iteration,
-            cause: cause.lines().next().unwrap_or_default().to_owned(),
-        }
+/// The record of a step that failed with `error` and is tried again with steps of `next_dt` \[s\].
+fn record(error: &StepError, next_dt: f64) -> RetryRecord {
+    let cause = error.cause.to_string();
+    RetryRecord {
+        step: error.step.index,
+        time: error.step.time,
+        dt: error.step.dt,
+        next_dt,
+        iteration: error.iteration,
+        cause: cause.lines().next().unwrap_or_default().to_owned(),
     }
 }
 
@@ -136,7 +117,7 @@ impl<A: Participant, B: Participant> March<A, B> {
                 Err(error) => error,
             };
             let Some(half) = sizes.half(size) else { return Err(error) };
-            observer.step_retried(&RetryRecord::new(&error, half));
+            observer.step_retried(&record(&error, half));
             size = half;
         }
     }

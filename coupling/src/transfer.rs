@@ -9,9 +9,9 @@ pub mod mortar;
 
 use sprs::{CsMat, TriMat};
 
-use crate::error::SetupError;
 use crate::participant::Participant;
 use crate::port::{Block, Quantity};
+use crate::setup::SetupError;
 
 /// A linear map between the points of two blocks, and its transpose.
 pub trait Transfer: Send {

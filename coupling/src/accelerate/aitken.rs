@@ -1,7 +1,7 @@
 //! Aitken's dynamic relaxation.
 
 use super::{Accelerator, AcceleratorState, Answer, DropReason, DroppedColumn, Proposal, check_omega};
-use crate::error::SetupError;
+use crate::setup::SetupError;
 use crate::vector::{add_scaled, dot, norm, subtract};
 
 /// `x <- x + omega_k r^k` with `omega_k = -(dx . dr) / |dr|^2`, where `dx = x^k - x^{k-1}` and `dr = r^k - r^{k-1}` (Irons and

@@ -1,7 +1,7 @@
 //! Relaxation by a constant factor.
 
 use super::{Accelerator, AcceleratorState, Answer, DroppedColumn, Proposal, check_omega};
-use crate::error::SetupError;
+use crate::setup::SetupError;
 use crate::vector::add_scaled;
 
 /// `x <- x + omega r`.

@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
-use super::history::Column;
+use super::column::Column;
 use super::qr::{Dependent, Qr};
-use crate::error::SetupError;
+use crate::setup::SetupError;
 
 /// Drops columns of `V = Q R` that depend on newer ones, so that the least-squares problem stays well posed.
 ///

@@ -1,8 +1,9 @@
 //! Interface quasi-Newton with a least-squares model of the inverse Jacobian.
 
-use super::history::{Columns, Secants};
+use super::column::Columns;
+use super::history::Secants;
 use super::{Accelerator, AcceleratorState, Answer, DroppedColumn, Proposal, QuasiNewton, relax};
-use crate::error::SetupError;
+use crate::setup::SetupError;
 
 /// IQN-ILS (Degroote, Bathe, Vierendeels 2009): `c = argmin |V c + r|`, `x <- x_tilde + W c`.
 ///

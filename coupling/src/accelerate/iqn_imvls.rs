@@ -4,9 +4,10 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
-use super::history::{Columns, Secants};
+use super::column::Columns;
+use super::history::Secants;
 use super::{Accelerator, AcceleratorState, Answer, DroppedColumn, Proposal, QuasiNewton, relax};
-use crate::error::SetupError;
+use crate::setup::SetupError;
 use crate::vector::{add_scaled, dot};
 
 /// What one finished step adds to the Jacobian: `J <- J + (W - J V) V^+` with `V^+ = R^{-1} Q^T`.

@@ -2,9 +2,10 @@
 
 use std::collections::VecDeque;
 
-use super::history::{Columns, Secants};
+use super::column::Columns;
+use super::history::Secants;
 use super::{Accelerator, AcceleratorState, Answer, DroppedColumn, Proposal, QuasiNewton, relax};
-use crate::error::SetupError;
+use crate::setup::SetupError;
 use crate::vector::dot;
 
 /// IQN-MVJ (Lindner, Mehl, Scheufele, Uekermann 2015): `J = J_prev + (W - J_prev V) V^+`, `x <- x_tilde - J r`.

@@ -1,7 +1,7 @@
 //! The contract of a participant.
 
 use super::{Violation, expect};
-use crate::error::ParticipantError;
+use crate::participant::ParticipantError;
 use crate::participant::{Effort, NewtonLimit, Participant, Step};
 use crate::port::total_len;
 use crate::vector::{norm, ratio, subtract};

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::error::ParticipantError;
+use crate::participant::ParticipantError;
 use crate::participant::{Change, Effort, NewtonLimit, Participant, Step};
 use crate::port::Block;
 use crate::vector::{norm, ratio, subtract};

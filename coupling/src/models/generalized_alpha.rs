@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::SetupError;
+use crate::setup::SetupError;
 
 /// The parameters by spectral radius `r`:
 /// `alpha_m = (2r - 1)/(r + 1)`, `alpha_f = r/(r + 1)`, `gamma = 1/2 - alpha_m + alpha_f`,

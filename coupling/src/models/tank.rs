@@ -23,8 +23,8 @@ pub use fluid::{Fluid, FluidState};
 
 use super::generalized_alpha::GeneralizedAlpha;
 use super::{Model, check_not_negative, check_positive};
-use crate::error::SetupError;
 use crate::port::{Block, Quantity};
+use crate::setup::SetupError;
 use modes::Modes;
 
 /// Order of the fluid's time derivatives.

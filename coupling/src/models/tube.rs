@@ -23,8 +23,8 @@ pub use wall::{Wall, WallState};
 
 use super::generalized_alpha::GeneralizedAlpha;
 use super::{Model, check_not_negative, check_positive};
-use crate::error::SetupError;
 use crate::port::{Block, Quantity};
+use crate::setup::SetupError;
 
 /// The settings of the tube.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

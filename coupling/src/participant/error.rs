@@ -1,0 +1,55 @@
+//! What a field says when it cannot go on.
+
+use std::error::Error;
+use std::fmt;
+
+/// A field could not be advanced.
+#[derive(Debug)]
+pub struct ParticipantError {
+    /// The field's name.
+    pub field: String,
+    /// What happened and where, with units.
+    pub message: String,
+    /// What to try.
+    pub hint: Option<String>,
+    /// The field's own error.
+    pub source: Option<Box<dyn Error + Send + Sync>>,
+}
+
+impl ParticipantError {
+    /// An error of `field`; `message` says what happened and where.
+    #[must_use]
+    pub fn new(field: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { field: field.into(), message: message.into(), hint: None, source: None }
+    }
+
+    /// Adds what to try.
+    #[must_use]
+    pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// Keeps the error that caused this one.
+    #[must_use]
+    pub fn with_source(mut self, source: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
+        self.source = Some(source.into());
+        self
+    }
+}
+
+impl fmt::Display for ParticipantError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.field, self.message)?;
+        match &self.hint {
+            Some(hint) => write!(f, "\nhint: {hint}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Error for ParticipantError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        self.source.as_deref().map(|source| source as &(dyn Error + 'static))
+    }
+}

@@ -1,0 +1,76 @@
+//! What is found wrong before the first step: parts that do not fit, settings out of range, foreign states.
+
+use std::fmt;
+
+use thiserror::Error;
+
+/// The parts of a coupled problem do not fit together.
+#[derive(Debug, Error, PartialEq)]
+pub enum SetupError {
+    /// The two participants and the transfers list different numbers of blocks.
+    #[error(
+        "{first} has {first_input} input and {first_output} output blocks, {second} has {second_input} and {second_output}, and there are {transfers} transfers\nhint: one block and one transfer an interface"
+    )]
+    BlockCount {
+        /// Name of the first participant.
+        first: String,
+        /// Name of the second participant.
+        second: String,
+        /// Input blocks of the first.
+        first_input: usize,
+        /// Output blocks of the first.
+        first_output: usize,
+        /// Input blocks of the second.
+        second_input: usize,
+        /// Output blocks of the second.
+        second_output: usize,
+        /// Transfers given.
+        transfers: usize,
+    },
+    /// Two blocks that meet do not agree.
+    #[error("interface {interface}: {problem}")]
+    BlockMismatch {
+        /// Name of the interface.
+        interface: String,
+        /// What disagrees.
+        problem: String,
+    },
+    /// A setting is out of its range.
+    #[error("{setting} = {value} is not allowed\nhint: {hint}")]
+    Setting {
+        /// Name of the setting.
+        setting: &'static str,
+        /// Its value.
+        value: String,
+        /// What is allowed.
+        hint: &'static str,
+    },
+    /// A transfer matrix has an entry that does not fit.
+    #[error("transfer row {row}: {problem}")]
+    TransferRow {
+        /// Row, that is point of the first participant.
+        row: usize,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A saved state belongs to other choices or to another interface.
+    #[error(
+        "the saved state of the {what} does not fit: {problem}\nhint: resume with the choices the state was saved with"
+    )]
+    State {
+        /// Whose state it is.
+        what: &'static str,
+        /// What disagrees.
+        problem: String,
+    },
+}
+
+impl SetupError {
+    pub(crate) fn setting(setting: &'static str, value: impl fmt::Display, hint: &'static str) -> Self {
+        Self::Setting { setting, value: value.to_string(), hint }
+    }
+
+    pub(crate) fn state(what: &'static str, problem: impl Into<String>) -> Self {
+        Self::State { what, problem: problem.into() }
+    }
+}

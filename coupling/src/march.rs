@@ -10,7 +10,7 @@ use crate::error::{StepError, StepFailure};
 use crate::observe::Observer;
 use crate::participant::{Participant, Step};
 use crate::policy::PolicyState;
-use crate::predict::Past;
+use crate::predict::{Past, Predictor};
 use crate::record::{StepHistory, StepRecord};
 use crate::setup::SetupError;
 use crate::transfer::{Transfer, Transfers};
@@ -144,7 +144,19 @@ impl<A: Participant, B: Participant> March<A, B> {
             &mut self.history,
             observer,
         )
-        .map_err(|failure| (self.failed_iteration(&failure), failure))
+        .map_err(|failure| (self.failed_iteration(&failure), self.with_predictor(failure)))
+    }
+
+    /// Says so where the first call of a step that is not the run's first failed on what a constant predictor gave it: it
+    /// stops the interface at the start of the step, and the flow that is stopped loads the structure with `rho v / dt`.
+    fn with_predictor(&self, failure: StepFailure) -> StepFailure {
+        let stopped = self.choices.predictor == Predictor::Constant && self.clock.steps > 0;
+        match failure {
+            StepFailure::Participant(error) if stopped && self.is_coupled() && self.history.iterations.is_empty() => {
+                error.and_hint("a constant `predictor` stops the interface at the start of each step: a linear one starts closer").into()
+            }
+            other => other,
+        }
     }
 
     fn failed_iteration(&self, failure: &StepFailure) -> usize {

@@ -1,10 +1,13 @@
 //! Steps that end, fail and are tried again.
 
+use std::cell::Cell;
+use std::rc::Rc;
+
 use partita_coupling::models::tank::Tank;
 use partita_coupling::models::tube::Tube;
 use partita_coupling::{
     Acceleration, AtLimit, CouplingSettings, Criterion, Effort, IdentityTransfer, March, MatrixTransfer,
-    NewtonLimit, ParticipantError, Policy, Record, SetupError, StepFailure, StepSizes,
+    NewtonLimit, ParticipantError, Policy, Predictor, Record, SetupError, StepFailure, StepSizes,
 };
 
 use crate::support::{Spoiled, all_accelerations, fixed, imvls, march, settings, tank, tube};
@@ -130,6 +133,25 @@ fn failed_step_leaves_no_trace_and_can_be_tried_again() {
         }
         assert_eq!(failures, 1, "{name}");
         assert_eq!(strip(&bumpy), strip(&clean), "{name}");
+    }
+}
+
+#[test]
+fn a_first_call_that_fails_under_a_constant_predictor_points_to_a_linear_one() {
+    for (predictor, told) in [(Predictor::Constant, true), (Predictor::Linear, false)] {
+        let fails = Rc::new(Cell::new(false));
+        let (flow, wall) = Tube::default().participants().expect("valid tube");
+        let gives_way = Rc::clone(&fails);
+        let wall = Spoiled::new(wall, move |_, _, _| match gives_way.get() {
+            true => Err(ParticipantError::new("wall", "it gives way").with_hint("load it less")),
+            false => Ok(()),
+        });
+        let mut march = march(flow, wall, &CouplingSettings { predictor, ..settings(imvls()) });
+        march.step(1e-3, &mut ()).expect("the first step has no step before it to predict from");
+        fails.set(true);
+        let error = march.step(1e-3, &mut ()).expect_err("the wall fails").to_string();
+        assert!(error.contains("hint: load it less"), "{error}");
+        assert_eq!(error.contains("; a constant `predictor` stops the interface"), told, "{error}");
     }
 }
 

@@ -142,9 +142,11 @@ fn a_first_call_that_fails_under_a_constant_predictor_points_to_a_linear_one() {
         let fails = Rc::new(Cell::new(false));
         let (flow, wall) = Tube::default().participants().expect("valid tube");
         let gives_way = Rc::clone(&fails);
-        let wall = Spoiled::new(wall, move |_, _, _| match gives_way.get() {
-            true => Err(ParticipantError::new("wall", "it gives way").with_hint("load it less")),
-            false => Ok(()),
+        let wall = Spoiled::new(wall, move |_, _, _| {
+            if gives_way.get() {
+                return Err(ParticipantError::new("wall", "it gives way").with_hint("load it less"));
+            }
+            Ok(())
         });
         let mut march = march(flow, wall, &CouplingSettings { predictor, ..settings(imvls()) });
         march.step(1e-3, &mut ()).expect("the first step has no step before it to predict from");

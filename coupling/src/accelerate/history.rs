@@ -5,8 +5,10 @@
 //! A pair is a secant only where the difference of the outputs is the fields' response to the difference of the inputs. It is
 //! none where a field gave the answer to an earlier input (see [`Answer`]): there `x_tilde` has hardly moved, and `r` holds
 //! what `x` moved by, which the model has accounted for already. A step along it would only lead away again. So `x` *waits*
-//! for one iteration, in which the other field settles. Where the answer is missing twice running, the residual is as good
-//! as the field's bound lets it be, and `x` moves on. A difference that is round-off tells nothing either.
+//! for one iteration, in which the other field settles; an answer to an input that did not change is no secant either. Where the
+//! answer is missing twice running, the residual is as good as the field's bound lets it be, and `x` moves on. The
+//! difference from there to the next answer is kept: without it, iterations whose bounds are looser than what the criterion
+//! asks for creep. A difference that is round-off tells nothing.
 
 use super::column::{Column, Columns};
 use super::filter::Filter;

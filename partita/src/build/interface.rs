@@ -20,8 +20,7 @@ pub(crate) const MORTAR_UP_TO: f64 = 5.0;
 
 /// The operator that a scene's choice comes to, with the coarsest facet of the interface.
 pub(crate) fn chosen(asked: schema::Transfer, coarsest: Option<&Coarsest>) -> schema::Transfer {
-    // The ratio of lengths may be off by their last digits.
-    let coarse = coarsest.is_some_and(|coarsest| coarsest.ratio() > MORTAR_UP_TO * (1.0 + 1e-9));
+    let coarse = coarsest.is_some_and(|coarsest| coarsest.exceeds(MORTAR_UP_TO));
     match asked {
         schema::Transfer::Automatic if coarse => schema::Transfer::Interpolation,
         schema::Transfer::Automatic => schema::Transfer::Mortar,

@@ -23,7 +23,7 @@ pub(super) fn check(
 ) {
     let Some(coarsest) = coarsest(fluid, structure) else { return };
     let limit = if coupling.transfer == Transfer::Interpolation { BY_INTERPOLATION } else { BY_MORTAR };
-    if coarsest.ratio() <= limit * (1.0 + 1e-9) {
+    if !coarsest.exceeds(limit) {
         return;
     }
     let finer = "refine the fluid's interface, or take fewer elements along the structure";

@@ -19,6 +19,11 @@ impl Coarsest {
     pub(crate) fn ratio(&self) -> f64 {
         self.facet / self.element
     }
+
+    /// Whether there are more than so many elements along the facet, and not by round-off alone.
+    pub(crate) fn exceeds(&self, elements: f64) -> bool {
+        self.ratio() > (1.0 + SAME) * elements
+    }
 }
 
 /// Ratios closer than this are one, up to round-off.
@@ -36,7 +41,7 @@ pub(crate) fn coarsest(fluid: &FluidSolver<2>, structure: &StructureSolver<2>) -
         Some(Coarsest { facet: distance(&a, &b), element: distance(&nearest[0], &nearest[1]), place })
     };
     let all = fluid.interface_facets().filter_map(|facet| of_facet(facet.nodes.map(|node| points[node])));
-    all.reduce(|best, next| if next.ratio() > (1.0 + SAME) * best.ratio() { next } else { best })
+    all.reduce(|best, next| if next.exceeds(best.ratio()) { next } else { best })
 }
 
 /// Distance of a point from the line between two others.

@@ -7,6 +7,7 @@ pub mod checkpoint;
 mod draw;
 pub mod expression;
 mod file_kind;
+mod lock;
 pub mod memory;
 mod nearest;
 pub mod output;

@@ -1,26 +1,30 @@
 //! Files that grow line by line, and are cut at a line when a run is resumed.
 
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use super::OutputError;
+use crate::lock::Locked;
 
 /// A file that only grows. Each line goes to the system at once: a killed run loses none. While it is open no other
 /// process can take it up.
 #[derive(Debug)]
 pub(super) struct LineFile {
     path: PathBuf,
-    file: File,
+    file: Locked,
 }
 
 impl LineFile {
     /// An empty file, in place of what is there.
     pub(super) fn create(path: PathBuf) -> Result<Self, OutputError> {
-        match File::create(&path) {
-            Ok(file) => lock(&file, &path).map(|()| Self { path, file }),
-            Err(source) => Err(OutputError::Write { path, source }),
-        }
+        let refused = |source| OutputError::Write { path: path.clone(), source };
+        // Emptied under the lock: another run's file keeps its lines.
+        let file =
+            OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(refused)?;
+        let file = lock(file, &path)?;
+        file.set_len(0).map_err(refused)?;
+        Ok(Self { path, file })
     }
 
     /// Keeps the lines at the beginning of the file for which `keep(number, line)` is true, and goes on behind them.
@@ -31,10 +35,10 @@ impl LineFile {
         path: PathBuf,
         mut keep: impl FnMut(usize, &str) -> Result<bool, String>,
     ) -> Result<Self, OutputError> {
-        let kept = kept_bytes(&path, &mut keep)?;
         let refused = |source| OutputError::Write { path: path.clone(), source };
         let file = OpenOptions::new().append(true).open(&path).map_err(refused)?;
-        lock(&file, &path)?;
+        let file = lock(file, &path)?;
+        let kept = kept_bytes(&path, &mut keep)?;
         file.set_len(kept).map_err(refused)?;
         Ok(Self { path, file })
     }
@@ -54,13 +58,9 @@ impl LineFile {
     }
 }
 
-/// Takes the lock of a file until it is closed, or says that it is taken. The lock of a dead process is gone.
-pub(super) fn lock(file: &File, path: &Path) -> Result<(), OutputError> {
-    match file.try_lock() {
-        Err(TryLockError::WouldBlock) => Err(OutputError::InUse { path: path.to_owned() }),
-        // Locked, or a file system without locks.
-        Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
-    }
+/// Takes the lock of an open file, or says that another run writes it.
+pub(super) fn lock(file: File, path: &Path) -> Result<Locked, OutputError> {
+    Locked::take(file).map_err(|_| OutputError::InUse { path: path.to_owned() })
 }
 
 fn kept_bytes(

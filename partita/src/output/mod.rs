@@ -309,7 +309,7 @@ fn resume_records(path: PathBuf, step: usize) -> Result<(LineFile, Totals), Outp
 pub fn remove_run(dir: &Path) -> Result<(), OutputError> {
     let records = dir.join(RECORDS);
     let Ok(file) = fs::File::open(&records) else { return Ok(()) };
-    lines::lock(&file, &records)?;
+    let _lock = lines::lock(file, &records)?;
     let collections = Series::ALL.map(Series::collection);
     let files = [SCENE, STEPS, EARLIER, PROBES, SUMMARY].into_iter().chain(checkpoint::FILES);
     let ours: Vec<&str> = files.chain(collections.iter().map(String::as_str)).collect();

@@ -8,7 +8,7 @@
 //! | `map.svg` | the same as a picture; written at the end |
 
 use std::collections::BTreeMap;
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, OpenOptions};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use super::read::Map;
 use super::row::Row;
+use crate::lock::Locked;
 
 /// Finished cells.
 pub const JOURNAL: &str = "cells.jsonl";
@@ -76,7 +77,7 @@ struct Entry {
 #[derive(Debug)]
 pub(super) struct Store {
     dir: PathBuf,
-    journal: File,
+    journal: Locked,
     pub(super) rows: BTreeMap<usize, Row>,
 }
 
@@ -104,9 +105,7 @@ impl Store {
             .write(true)
             .open(&path)
             .map_err(fail(&path))?;
-        if let Err(TryLockError::WouldBlock) = journal.try_lock() {
-            return Err(StoreError::InUse { path });
-        }
+        let journal = Locked::take(journal).map_err(|_| StoreError::InUse { path: path.clone() })?;
         let text = fs::read_to_string(&path).map_err(fail(&path))?;
         let mut store = Self { dir: dir.to_owned(), journal, rows: BTreeMap::new() };
         let mut kept = 0;
@@ -129,7 +128,7 @@ impl Store {
             }
         }
         store.journal.set_len(kept as u64).map_err(fail(&path))?;
-        io::Seek::seek(&mut store.journal, io::SeekFrom::Start(kept as u64)).map_err(fail(&path))?;
+        io::Seek::seek(&mut *store.journal, io::SeekFrom::Start(kept as u64)).map_err(fail(&path))?;
         if kept == 0 {
             store.append(&head)?;
             store.put(MAP, &map.text)?;

@@ -10,8 +10,8 @@ use partita::checkpoint::CheckpointError;
 use partita::output::{self, OutputError};
 use partita::scene::SceneError;
 use partita::session::RunError;
-use partita::stability::StoreError;
-use partita::study::{StudyError, StudyFailure};
+use partita_sweep::stability::StoreError;
+use partita_sweep::study::{StudyError, StudyFailure};
 use serde_json::{Value, json};
 
 /// The scene or the command line is wrong.

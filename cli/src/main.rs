@@ -17,7 +17,8 @@ use partita::output::{Clock, Ending, Summary};
 use partita::scene::Resolved;
 use partita::session::{Options, RunError, Session};
 use partita::warning::{self, Warning};
-use partita::{build, check, output, plan, scene, stability, study};
+use partita::{build, check, output, plan, scene};
+use partita_sweep::{stability, study};
 
 use args::{
     Arguments, Check, Command, Manner, Plan, Resume, Rows, Run, SceneArguments, Stability, Study, Table,

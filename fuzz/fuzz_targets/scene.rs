@@ -11,8 +11,8 @@ use std::path::Path;
 
 use libfuzzer_sys::{Corpus, fuzz_target};
 use miette::{GraphicalReportHandler, GraphicalTheme};
-use partita::scene::schema::{Count, FluidMesh, Geometry, Scene};
-use partita::scene::{SceneError, parse, read_in, to_toml};
+use partita_scene::schema::{Count, FluidMesh, Geometry, Scene};
+use partita_scene::{SceneError, parse, read_in, to_toml};
 
 fuzz_target!(|bytes: &[u8]| -> Corpus {
     let Ok(input) = str::from_utf8(bytes) else { return Corpus::Reject };

@@ -1,24 +1,17 @@
 //! From a validated scene to a run that can be stepped.
 
-mod coupling;
-#[cfg(test)]
-mod defaults;
-mod fluid;
 pub(crate) mod interface;
-mod structure;
 
 use partita_coupling::{Block, March, Quantity, SetupError, Transfer};
 use partita_fluid::{FluidError, FluidSolver};
-use partita_numerics::newton::{self, Bound, Check};
-use partita_structure::{MaterialError, StructureError, StructureSolver};
+use partita_structure::{MaterialError, Space, StructureError, StructureSolver};
 use thiserror::Error;
 
-pub(crate) use fluid::{holders, nearest_node};
 pub(crate) use interface::transfer;
-pub(crate) use structure::{boundary, place_in, side, supports};
 
 use crate::adapt::{Adapter, Slot};
-use crate::scene::{Resolved, schema};
+use partita_mesh::Mesh;
+use partita_scene::{Resolved, models, schema};
 
 /// A run of a scene: fluid first, structure second, either of them possibly absent.
 pub type Run = March<Slot<FluidSolver<2>>, Slot<StructureSolver<2>>>;
@@ -60,14 +53,14 @@ pub fn run(resolved: &Resolved) -> Result<Run, BuildError> {
 pub fn run_on(Resolved { scene, shapes, .. }: &Resolved, threads: usize) -> Result<Run, BuildError> {
     let fluid = scene.fluid.as_ref().zip(shapes.fluid.clone());
     let moves = scene.moves_the_interface();
-    let fluid = fluid.map(|(scene, mesh)| fluid::solver(scene, mesh, moves, threads)).transpose()?;
+    let fluid = fluid.map(|(scene, mesh)| fluid_solver(scene, mesh, moves, threads)).transpose()?;
     let structure = scene.structure.as_ref().zip(shapes.structure.clone());
-    let structure = structure.map(|(scene, space)| structure::solver(scene, space)).transpose()?;
+    let structure = structure.map(|(scene, space)| structure_solver(scene, space)).transpose()?;
     let (settings, transfers) = match (&scene.coupling, &fluid, &structure) {
         (Some(coupling), Some(fluid), Some(structure)) => {
-            (coupling::settings(coupling), vec![transfer(fluid, structure, coupling)?])
+            (models::coupling_settings(coupling), vec![transfer(fluid, structure, coupling)?])
         }
-        _ => (coupling::one_call(), Vec::<Box<dyn Transfer>>::new()),
+        _ => (models::one_call(), Vec::<Box<dyn Transfer>>::new()),
     };
     let coupled = !transfers.is_empty();
     let blocks = |quantity, points| {
@@ -85,18 +78,23 @@ pub fn run_on(Resolved { scene, shapes, .. }: &Resolved, threads: usize) -> Resu
     Ok(March::new(Slot::new(first), Slot::new(second), transfers, &settings, 0.0)?)
 }
 
-fn newton(newton: &schema::Newton) -> newton::Settings {
-    newton::Settings {
-        bound: match newton.tolerance {
-            schema::Tolerance::Relative(bound) => Bound::Relative(bound.get()),
-            schema::Tolerance::Absolute(bound) => Bound::Absolute(bound.get()),
-        },
-        check: match newton.check {
-            schema::Check::Before => Check::Before,
-            schema::Check::Lagged => Check::Lagged,
-        },
-        max_iterations: newton.max_iterations.get(),
-        reuse_factor: newton.reuse_factor.map(schema::Fraction::get),
-        ..newton::Settings::default()
-    }
+/// The solver of a scene's fluid on `mesh`, at its initial state; `moves` tells whether its interface does, and `threads` how
+/// many solve its linear systems.
+fn fluid_solver(
+    fluid: &schema::Fluid,
+    mesh: Mesh<2>,
+    moves: bool,
+    threads: usize,
+) -> Result<FluidSolver<2>, BuildError> {
+    let settings = models::fluid_settings(fluid, &mesh, threads);
+    Ok(FluidSolver::new(mesh, models::fluid_model(fluid, moves), settings)?)
+}
+
+/// The solver of a scene's structure in `space`, at rest.
+fn structure_solver(
+    structure: &schema::Structure,
+    space: Space<2>,
+) -> Result<StructureSolver<2>, BuildError> {
+    let model = models::structure_model(structure, &space)?;
+    Ok(StructureSolver::new(space, model, models::structure_settings(structure))?)
 }

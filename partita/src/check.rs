@@ -15,11 +15,11 @@ use partita_structure::{Space, StructureSolver};
 use crate::build::interface::{chosen, coarsest};
 use crate::build::{BuildError, Run};
 use crate::memory;
-use crate::scene::schema::{
+use inflow::Inflow;
+use partita_scene::schema::{
     Component, Condition, Coupling, Direction, Fluid, Part, Structure, Transfer, plain,
 };
-use crate::scene::{Content, Resolved, Role, words};
-use inflow::Inflow;
+use partita_scene::{Content, Resolved, Role, words};
 
 /// Looks ahead to what a run would stop at in a later step: an enclosed fluid that does not keep its volume.
 ///

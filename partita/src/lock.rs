@@ -5,15 +5,18 @@ use std::ops::{Deref, DerefMut};
 
 /// An open file under its lock, which ends with this value, or with the process.
 #[derive(Debug)]
-pub(crate) struct Locked(File);
+pub struct Locked(File);
 
 /// Another process, or another value of this one, holds the lock.
 #[derive(Debug)]
-pub(crate) struct Taken;
+pub struct Taken;
 
 impl Locked {
     /// Takes the lock of `file` without waiting. A file system without locks grants it to everyone.
-    pub(crate) fn take(file: File) -> Result<Self, Taken> {
+    ///
+    /// # Errors
+    /// When it is taken.
+    pub fn take(file: File) -> Result<Self, Taken> {
         match file.try_lock() {
             Err(TryLockError::WouldBlock) => Err(Taken),
             Ok(()) | Err(TryLockError::Error(_)) => Ok(Self(file)),

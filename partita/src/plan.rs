@@ -5,11 +5,11 @@
 use std::fmt;
 
 use crate::output::table::Table;
-use crate::scene::schema::{
+use partita_scene::schema::{
     Condition, Direction, Fluid, FluidTimeScheme, Material, MotionMode, Output, Scene, Structure,
     StructureTimeScheme, VectorFormula,
 };
-use crate::scene::words;
+use partita_scene::words;
 
 /// One effect, and what a scene says about it.
 #[derive(Debug, Clone, PartialEq, Eq)]

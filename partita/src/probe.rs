@@ -8,13 +8,14 @@ use std::collections::BTreeMap;
 use partita_fluid::FluidSolver;
 use partita_structure::StructureSolver;
 
-use crate::build::{self, Run, nearest_node};
-use crate::scene::schema::{self, Parameter, Real};
+use crate::build::Run;
 use line::Samples;
+use partita_scene::models::{self, nearest_node};
+use partita_scene::schema::{self, Parameter, Real};
 
 /// The probes of a scene, in the order of their columns.
 #[derive(Debug)]
-pub(crate) struct Probes {
+pub struct Probes {
     places: Vec<Place>,
     columns: Vec<String>,
 }
@@ -48,20 +49,23 @@ enum FluidPlace {
 impl Probes {
     /// The probes of `scene` on `run`, which was built from it.
     #[must_use]
-    pub(crate) fn new(probes: &BTreeMap<String, schema::Probe>, run: &Run) -> Self {
+    pub fn new(probes: &BTreeMap<String, schema::Probe>, run: &Run) -> Self {
         let places = probes.values().map(|probe| place(probe, run)).collect();
         Self { places, columns: columns(probes) }
     }
 
     /// Names of the columns.
     #[must_use]
-    pub(crate) fn columns(&self) -> &[String] {
+    pub fn columns(&self) -> &[String] {
         &self.columns
     }
 
     /// The values now, one a column.
+    ///
+    /// # Panics
+    /// When `run` is not the one that the probes were made for.
     #[must_use]
-    pub(crate) fn values(&self, run: &Run) -> Vec<f64> {
+    pub fn values(&self, run: &Run) -> Vec<f64> {
         const CHECKED: &str = "the scene's probes were checked against its fields";
         let values = |place: &Place| match place {
             Place::Structure(place) => place.values(run.second().field().expect(CHECKED)),
@@ -73,7 +77,7 @@ impl Probes {
 
 /// Names of the columns of `probes`.
 #[must_use]
-pub(crate) fn columns(probes: &BTreeMap<String, schema::Probe>) -> Vec<String> {
+pub fn columns(probes: &BTreeMap<String, schema::Probe>) -> Vec<String> {
     let of_probe = |(name, probe)| quantities(probe).iter().map(move |quantity| format!("{name}_{quantity}"));
     probes.iter().flat_map(of_probe).collect()
 }
@@ -108,7 +112,7 @@ fn place(probe: &schema::Probe, run: &Run) -> Place {
         }
         Probe::StructurePoint(point) => {
             let space = run.second().field().map(StructureSolver::space);
-            let place = space.and_then(|space| build::place_in(space, point.map(Real::get)));
+            let place = space.and_then(|space| models::place_in(space, point.map(Real::get)));
             let place = place.expect("the scene's probes were checked against its structure");
             return Place::Structure(StructurePlace::Displacement(place));
         }

@@ -18,9 +18,9 @@ use crate::draw::Drawing;
 use crate::output::space::{self, Estimate};
 use crate::output::{Clock, Ending, OutputError, RunWriter, Spent, Summary};
 use crate::probe::Probes;
-use crate::scene::Resolved;
-use crate::scene::schema::{Count, Output, Scene, Warnings};
 use crate::watch::Watcher;
+use partita_scene::Resolved;
+use partita_scene::schema::Scene;
 
 /// How a run is to be carried out; nothing here changes its numbers.
 #[derive(Debug, Clone, Copy, Default)]
@@ -352,7 +352,7 @@ impl RunState {
     /// What `run` of `scene` remembers now.
     fn of(run: &Run, scene: &Resolved) -> Self {
         Self {
-            scene: decisive(scene),
+            scene: scene.decisive(),
             march: run.state(),
             fluid: run.first().state(),
             structure: run.second().state(),
@@ -361,7 +361,7 @@ impl RunState {
 
     /// Puts `run` of `scene` where this state was taken.
     fn restore(&self, run: &mut Run, scene: &Resolved) -> Result<(), RunError> {
-        let now = decisive(scene);
+        let now = scene.decisive();
         if let Some((then, now)) = self.scene.lines().zip(now.lines()).find(|(then, now)| then != now) {
             return Err(RunError::Misfit(format!("`{}` is now `{}`", then.trim(), now.trim())));
         }
@@ -371,19 +371,6 @@ impl RunState {
         fluid.restore(&self.fluid).map_err(|error| misfit(&error))?;
         structure.restore(&self.structure).map_err(|error| misfit(&error))
     }
-}
-
-/// The scene without what may change between two sessions of a run, how far it goes and what is written, and a
-/// checksum of each file that it is built from.
-fn decisive(resolved: &Resolved) -> String {
-    let mut resolved = resolved.clone();
-    resolved.scene.time.steps = Count::literal(1);
-    resolved.scene.output = Output::default();
-    resolved.scene.warnings = Warnings::default();
-    let inputs = resolved.shapes.inputs.iter();
-    let sums =
-        inputs.map(|input| format!("# {} has checksum {:08x}\n", input.name, crc32fast::hash(&input.bytes)));
-    resolved.to_toml() + &sums.collect::<String>()
 }
 
 /// Passes what happens inside a step on to files and watcher; keeps the first refusal for after the step.

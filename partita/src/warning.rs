@@ -7,7 +7,6 @@ mod added_mass;
 mod flow;
 mod formulas;
 mod interface;
-mod kind;
 mod motion;
 mod scales;
 mod structure;
@@ -18,10 +17,10 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-pub use kind::Kind;
+pub use partita_scene::warning::Kind;
 
 use crate::build::Run;
-use crate::scene::Resolved;
+use partita_scene::Resolved;
 use scales::FlowScales;
 
 /// One warning.

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use crate::task::{TaskError, cargo, run as run_command, shown};
-use crate::{accuracy, reproduce, stability, tidy};
+use crate::tidy;
 
 /// How one check is done.
 enum Check {
@@ -16,16 +16,13 @@ enum Check {
 
 /// The tests come first: they are what the README tells a reader to run. Tests, lints and documentation share the dev
 /// profile, so the heavy dependencies are compiled once for it and once for the release binary.
-const CHECKS: [(&str, Check); 9] = [
+const CHECKS: [(&str, Check); 6] = [
     ("test", Check::Cargo(&["test", "--workspace"], None)),
     ("fmt", Check::Cargo(&["fmt", "--all", "--check"], None)),
     ("clippy", Check::Cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], None)),
     ("doc", Check::Cargo(&["doc", "--workspace", "--no-deps"], Some(("RUSTDOCFLAGS", "-D warnings")))),
     ("tidy", Check::Task("cargo xtask tidy", tidy::run)),
-    ("pages", Check::Task("cargo xtask reproduce --mode check", reproduce::check_pages)),
-    ("accuracy", Check::Task("docs/accuracy.md against docs/data/accuracy.csv", accuracy::check_pages)),
-    ("maps", Check::Task("the page of cargo xtask stability", stability::check_page)),
-    ("reproduce", Check::Task("cargo xtask reproduce --quick", reproduce::quick)),
+    ("report", Check::Cargo(&["run", "--release", "--package", "partita-report", "--", "check"], None)),
 ];
 
 /// The names by which a check can be skipped.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use insta::assert_snapshot;
-use partita::study::{DIAGRAM, Manner, ROWS, Report, STUDY, Study, StudyFailure};
+use partita_sweep::study::{DIAGRAM, Manner, ROWS, Report, STUDY, Study, StudyFailure};
 
 use crate::program::{entries, folder_with as folder_with_scene, partita};
 use crate::retry::BEAM;
@@ -92,7 +92,7 @@ fn rows_in(dir: &Path) -> String {
 
 /// The rows without the time.
 fn errors(report: &Report) -> String {
-    let line = |row: &partita::study::Row| {
+    let line = |row: &partita_sweep::study::Row| {
         let numbers = row.outcome.as_ref().expect("it ran");
         format!("{}, {}: {:.2e}, {} unknowns\n", row.choice, row.refinement, numbers.error, numbers.unknowns)
     };

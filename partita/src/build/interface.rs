@@ -8,7 +8,7 @@ use partita_structure::{InterfaceRow, Segment, StructureError, StructureSolver};
 use sprs::TriMat;
 
 use super::BuildError;
-use crate::scene::schema;
+use partita_scene::schema;
 
 mod coarsest;
 

@@ -2,7 +2,7 @@
 
 use partita_fluid::{FluidError, FluidSolver};
 
-use crate::scene::schema::Time;
+use partita_scene::schema::Time;
 
 /// Steps at the start that are looked at one by one, and those after them.
 const FIRST: usize = 3;

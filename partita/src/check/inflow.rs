@@ -4,7 +4,7 @@ use partita_fluid::FluidSolver;
 use partita_mesh::Facet;
 use partita_numerics::gauss;
 
-use crate::scene::schema::{Condition, Scene, VectorFormula};
+use partita_scene::schema::{Condition, Scene, VectorFormula};
 
 /// Points on an edge at which a formula is evaluated.
 const POINTS: usize = 5;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::OutputError;
 use super::fields::remove_if_there;
-use crate::scene::{INPUT_FILES, INPUT_FOLDER, Input};
+use partita_scene::{INPUT_FILES, INPUT_FOLDER, Input};
 
 /// Writes the copies; no folder when there are none.
 pub(super) fn keep(dir: &Path, inputs: &[Input]) -> Result<(), OutputError> {

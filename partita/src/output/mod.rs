@@ -42,10 +42,10 @@ use partita_coupling::record::{IterationRecord, StepRecord};
 use partita_coupling::{Record, RetryRecord};
 
 use crate::checkpoint::{self, Stamp};
-use crate::scene::{INPUT_FOLDER, Input};
 use csv::CsvFile;
 use fields::{FieldFiles, Series, Snapshot, remove_if_there};
 use lines::LineFile;
+use partita_scene::{INPUT_FOLDER, Input};
 use record::{Line, ProbeRow};
 
 pub use error::OutputError;

@@ -3,7 +3,7 @@
 use partita_mesh::{Cells, simplex};
 use partita_numerics::gauss;
 
-use crate::scene::schema::Known;
+use partita_scene::schema::Known;
 
 /// Degree of the quadrature: the square of a linear function times a curve, well below the errors that are measured.
 const DEGREE: usize = gauss::TRIANGLE_DEGREE;
@@ -44,8 +44,8 @@ mod tests {
     use partita_mesh::generate::{Diagonal, RectangleMesh, rectangle};
 
     use super::*;
-    use crate::expression::Expression;
-    use crate::scene::schema::{Formula, VectorFormula};
+    use partita_scene::expression::Expression;
+    use partita_scene::schema::{Formula, VectorFormula};
 
     fn formula(text: &str) -> Formula {
         Formula::Expression(Expression::parse(text).expect("a formula"))

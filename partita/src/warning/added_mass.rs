@@ -5,7 +5,7 @@ use partita_structure::{Mode, StructureSolver};
 
 use super::{Found, Kind};
 use crate::build;
-use crate::scene::schema::{Acceleration, Coupling, Direction, Fluid, FluidTimeScheme};
+use partita_scene::schema::{Acceleration, Coupling, Direction, Fluid, FluidTimeScheme};
 
 /// `(c_0 / c_0 of BDF1)^2`, what the time scheme makes of a displacement over dt^2: the interface's acceleration.
 fn acceleration(scheme: FluidTimeScheme) -> f64 {

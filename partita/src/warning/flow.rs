@@ -2,7 +2,7 @@
 
 use super::scales::FlowScales;
 use super::{Found, Kind};
-use crate::scene::schema::{Fluid, FluidTimeScheme};
+use partita_scene::schema::{Fluid, FluidTimeScheme};
 
 /// The largest Reynolds number of the benchmarks is about 1000.
 const REYNOLDS: f64 = 1e4;

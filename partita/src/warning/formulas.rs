@@ -1,7 +1,7 @@
 //! Formulas without a finite value at t = 0, where no run evaluates them.
 
 use super::{Found, Kind};
-use crate::scene::formulas::faults;
+use partita_scene::formulas::faults;
 
 pub(super) fn check(found: &mut Found<'_>) {
     let resolved = found.resolved;

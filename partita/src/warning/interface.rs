@@ -6,7 +6,7 @@ use partita_structure::StructureSolver;
 
 use super::{Found, Kind};
 use crate::build::interface::{Coarsest, chosen, coarsest};
-use crate::scene::schema::{Coupling, Transfer};
+use partita_scene::schema::{Coupling, Transfer};
 
 /// Length of a facet over that of the element beside it, above which a scene that asks for interpolation is warned: elements
 /// in between get no load of their own.

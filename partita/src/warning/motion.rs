@@ -4,8 +4,8 @@ use partita_mesh::{Mesh, Place};
 
 use super::scales::{extents, most, points_of, size, speeds};
 use super::{Found, Kind};
-use crate::scene::formulas::times;
-use crate::scene::schema::{Condition, Fluid, Initial, VectorFormula};
+use partita_scene::formulas::times;
+use partita_scene::schema::{Condition, Fluid, Initial, VectorFormula};
 
 /// Displacement at t = 0 that still counts as none, as part of the mesh's extent.
 const NONE: f64 = 1e-9;

@@ -4,9 +4,9 @@ use partita_fluid::FluidSolver;
 use partita_mesh::{Mesh, quality};
 
 use crate::build::Run;
-use crate::scene::Resolved;
-use crate::scene::formulas::times;
-use crate::scene::schema::{Condition, Fluid, Initial, VectorFormula};
+use partita_scene::Resolved;
+use partita_scene::formulas::times;
+use partita_scene::schema::{Condition, Fluid, Initial, VectorFormula};
 
 /// What is known about a flow before it is solved.
 pub(super) struct FlowScales {

@@ -4,8 +4,8 @@ use partita_structure::StructureSolver;
 
 use super::scales::{FlowScales, extents, largest, most};
 use super::{Found, Kind};
-use crate::scene::formulas::times;
-use crate::scene::schema::{Elastic, Material, Structure, StructureTimeScheme};
+use partita_scene::formulas::times;
+use partita_scene::schema::{Elastic, Material, Structure, StructureTimeScheme};
 
 /// Largest spectral radius, and smallest gamma of Newmark's method, that damp the interface force.
 const RADIUS: f64 = 0.9;

@@ -6,8 +6,8 @@ use partita_mesh::Place;
 use partita_structure::{Space, StructureSolver, rigid};
 
 use super::{Found, Kind};
-use crate::scene::free::{HOLD, MOST_PIECES, in_words};
-use crate::scene::schema::{Component, Condition, Fluid, Structure};
+use partita_scene::free::{HOLD, MOST_PIECES, in_words};
+use partita_scene::schema::{Component, Condition, Fluid, Structure};
 
 /// Pieces that the supports leave free to move as rigid bodies.
 pub(super) fn pieces(found: &mut Found<'_>, structure: &Structure, solver: &StructureSolver<2>) {

@@ -1,7 +1,7 @@
 //! Tolerances below round-off, or above the load.
 
 use super::{Found, Kind};
-use crate::scene::schema::{Convergence, Coupling, Newton, Tolerance, plain};
+use partita_scene::schema::{Convergence, Coupling, Newton, Tolerance, plain};
 
 /// Relative sizes that a sum of some hundred terms in double precision does not reach.
 const ROUND_OFF: f64 = 1e-14;

@@ -26,9 +26,9 @@ const STRANGERS: [(&str, &str); 8] = [
 const RESERVED: [(&str, &[&str]); 5] = [
     ("faer", &["numerics"]),
     ("clap", &["cli"]),
-    ("indicatif", &["cli", "xtask"]),
-    ("miette", &["partita", "cli", "fuzz"]),
-    ("toml", &["partita", "iga", "xtask"]),
+    ("indicatif", &["cli", "report"]),
+    ("miette", &["scene", "partita", "sweep", "cli", "fuzz"]),
+    ("toml", &["scene", "partita", "sweep", "iga", "report", "xtask"]),
 ];
 
 pub(crate) fn check(tree: &Tree) -> Vec<Finding> {

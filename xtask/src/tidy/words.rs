@@ -6,7 +6,7 @@ use super::Finding;
 use super::tree::{File, Tree};
 
 /// Rooms whose source may print.
-const PRINTING_ROOMS: [&str; 2] = ["cli", "xtask"];
+const PRINTING_ROOMS: [&str; 3] = ["cli", "report", "xtask"];
 /// Folders of a room whose code may print.
 const PRINTING_FOLDERS: [&str; 3] = ["examples", "benches", "tests"];
 

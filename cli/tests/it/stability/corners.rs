@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use partita::stability::{self, Ending, Map, Options, Outcome, Row};
+use partita_sweep::stability::{self, Ending, Map, Options, Outcome, Row};
 
 /// What one cell of a shipped map comes to, in at most `steps` steps where the map does not set them.
 fn corner(map: &str, choice: &str, values: [&str; 2], steps: Option<usize>) -> Row {

@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 use miette::{GraphicalReportHandler, GraphicalTheme};
-use partita::study::Study;
+use partita_sweep::study::Study;
 
 use super::{SOUND, folder_with};
 use crate::program::{entries, partita};

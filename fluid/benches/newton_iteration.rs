@@ -8,6 +8,7 @@
 mod alternating;
 mod tank;
 
+use partita_numerics::Field;
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};

@@ -12,6 +12,7 @@
 #[path = "../../numerics/benches/alternating/mod.rs"]
 mod alternating;
 mod tank;
+use partita_numerics::Field;
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};

@@ -3,6 +3,7 @@
 use partita_mesh::Place;
 use partita_mesh::motion::MotionError;
 use partita_numerics::FactorError;
+use partita_numerics::field::StateMismatch;
 use partita_numerics::time::shown;
 
 /// Why a fluid cannot be set up or advanced.
@@ -170,16 +171,6 @@ pub enum FluidError {
     #[error("fluid: {0}")]
     FactorSetup(#[from] FactorError),
     /// A state of another fluid.
-    #[error(
-        "fluid: the state to restore has {found} {what}, this fluid {expected}\n\
-         hint: states fit only the mesh they were saved from"
-    )]
-    StateMismatch {
-        /// What was counted.
-        what: &'static str,
-        /// In the state.
-        found: usize,
-        /// In the solver.
-        expected: usize,
-    },
+    #[error("fluid: {0}\nhint: states fit only the mesh they were saved from")]
+    StateOfAnotherFluid(#[from] StateMismatch),
 }

@@ -28,7 +28,7 @@ impl<const D: usize> FluidSolver<D> {
     /// # Panics
     ///
     /// If `force` does not have D entries an interface node.
-    pub fn output(&self, force: &mut [f64]) {
+    pub fn interface_force(&self, force: &mut [f64]) {
         let nodes = self.interface_nodes();
         assert_eq!(force.len(), nodes.len() * D, "interface forces have {D} entries a node");
         for (node, force) in nodes.iter().zip(force.chunks_exact_mut(D)) {
@@ -37,7 +37,7 @@ impl<const D: usize> FluidSolver<D> {
     }
 
     /// Force of the fluid on the boundary group of that name, from the last assembly `[N/m in 2D, N in 3D]`: the
-    /// sum of the nodal forces, taken apart as in [`output`](Self::output) at nodes that it shares with neighbouring groups. None
+    /// sum of the nodal forces, taken apart as in [`interface_force`](Self::interface_force) at nodes that it shares with neighbouring groups. None
     /// for a name that is no group; zero where the group holds no velocity.
     #[must_use]
     pub fn force_on(&self, group: &str) -> Option<[f64; D]> {

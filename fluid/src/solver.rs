@@ -5,7 +5,10 @@ use partita_mesh::facet::Facet;
 use partita_mesh::motion::{MeshMotion, MotionQuality};
 use partita_numerics::newton::FactorLog;
 use partita_numerics::phases::PhaseSeconds;
-use partita_numerics::{Factor, Method, Pattern, newton};
+use partita_numerics::{Factor, Method, Part};
+
+#[cfg(doc)]
+use partita_numerics::Field;
 
 use crate::assembly::Assembly;
 use crate::boundary::{self, Boundaries, Frames};
@@ -20,12 +23,12 @@ use crate::trial::Trial;
 /// Incompressible Navier-Stokes on a moving mesh of triangles (`D = 2`) or tetrahedra (`D = 3`).
 ///
 /// A step is `begin_step`, then any number of rounds of `impose` (new displacement of the interface) and Newton
-/// iterations ([`newton::solve`], or [`advance`](Self::advance)), then `commit` or `rewind`. A round continues
+/// iterations ([`newton::solve`](partita_numerics::newton::solve), or [`advance`](Field::advance)), then `commit` or `rewind`. A round continues
 /// from the iterate of the round before.
 ///
 /// ```
 /// use std::sync::Arc;
-/// use partita_fluid::{BodyForce, BoundaryCondition, FluidModel, FluidSettings, FluidSolver, InitialState};
+/// use partita_fluid::{BodyForce, BoundaryCondition, Field, FluidModel, FluidSettings, FluidSolver, InitialState};
 /// use partita_mesh::generate::{Diagonal, RectangleMesh, rectangle};
 /// use partita_numerics::newton::Limit;
 ///
@@ -75,16 +78,7 @@ pub struct FluidSolver<const D: usize> {
     pub(crate) phases: PhaseSeconds,
     /// Volume defect of the last accepted step.
     pub(crate) last_volume_defect: f64,
-    parts: Vec<Part>,
-}
-
-/// A part of the unknowns whose change is measured on its own.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Part {
-    /// `velocity` or `pressure`.
-    pub name: &'static str,
-    /// Its free dofs in [`FluidSolver::values`]. Of a node on an inclined slip wall all velocities are listed.
-    pub dofs: Vec<usize>,
+    pub(crate) parts: Vec<Part>,
 }
 
 impl<const D: usize> FluidSolver<D> {
@@ -132,20 +126,8 @@ impl<const D: usize> FluidSolver<D> {
         })
     }
 
-    /// u `[m/s]` and p `[Pa]` of the latest iterate on all dofs, `node * (D + 1) + c`, pressure last.
-    #[must_use]
-    pub fn values(&self) -> &[f64] {
-        &self.trial.values
-    }
-
-    /// Velocity and pressure and their free dofs.
-    #[must_use]
-    pub fn parts(&self) -> &[Part] {
-        &self.parts
-    }
-
-    /// The nodes whose displacement [`impose`](Self::impose) takes and whose forces
-    /// [`output`](Self::output) gives: those of all interface groups, sorted.
+    /// The nodes whose displacement [`impose`](Field::impose) takes and whose forces
+    /// [`output`](Field::output) gives: those of all interface groups, sorted.
     #[must_use]
     pub fn interface_nodes(&self) -> &[usize] {
         &self.boundaries.interface
@@ -193,18 +175,6 @@ impl<const D: usize> FluidSolver<D> {
         &self.settings
     }
 
-    /// When Newton's method stops.
-    #[must_use]
-    pub fn newton_settings(&self) -> &newton::Settings {
-        &self.settings.newton
-    }
-
-    /// Time spent since it was built.
-    #[must_use]
-    pub fn phases(&self) -> PhaseSeconds {
-        self.phases
-    }
-
     /// How many factorizations since it was built had to be repeated by a slower method, see [`Factor::fallbacks`].
     #[must_use]
     pub fn fallbacks(&self) -> usize {
@@ -221,13 +191,6 @@ impl<const D: usize> FluidSolver<D> {
     #[must_use]
     pub fn mesh_motion(&self) -> Option<&MeshMotion<D>> {
         self.motion.as_ref()
-    }
-
-    /// The tangent of the last assembly over the free equations. Rows and columns of nodes on inclined slip
-    /// walls are in the frame of the wall.
-    #[must_use]
-    pub fn tangent(&self) -> (&Pattern, &[f64]) {
-        (&self.assembly.pattern, &self.assembly.tangent)
     }
 }
 

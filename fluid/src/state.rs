@@ -1,8 +1,7 @@
 //! The committed state of a fluid: plain data.
 
+use partita_numerics::field::StateMismatch;
 use serde::{Deserialize, Serialize};
-
-use crate::error::FluidError;
 
 /// All that a fluid remembers between time steps. A solver that restores it continues bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -45,13 +44,9 @@ impl FluidState {
     }
 
     /// Whether `other` is a state of the same mesh.
-    pub(crate) fn check_fits(&self, other: &Self) -> Result<(), FluidError> {
-        let check = |what, found: &[f64], expected: &[f64]| match (found.len(), expected.len()) {
-            (found, expected) if found != expected => {
-                Err(FluidError::StateMismatch { what, found, expected })
-            }
-            _ => Ok(()),
-        };
+    pub(crate) fn check_fits(&self, other: &Self) -> Result<(), StateMismatch> {
+        let check =
+            |what, found: &[f64], expected: &[f64]| StateMismatch::check(what, found.len(), expected.len());
         check("values", &other.values, &self.values)?;
         check("previous values", &other.previous_values, &self.previous_values)?;
         check("mesh displacements", &other.displacement, &self.displacement)?;

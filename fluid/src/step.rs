@@ -1,70 +1,19 @@
-//! One time step: begin, impose, iterate, commit or rewind.
+//! The equations of one time step, and all that follows the mesh within it.
 
-use partita_numerics::newton::{self, Failure, KeptFactor, Limit, Problem, Report, ResidualNorm, Verdict};
+use partita_numerics::Field;
+use partita_numerics::newton::{Problem, ResidualNorm, ReusableFactor};
 use partita_numerics::phases::timed;
-use partita_numerics::time::Bdf;
 
 use crate::assembly::Iterate;
 use crate::balance;
 use crate::boundary::{MovedMesh, evaluate};
 use crate::error::FluidError;
 use crate::model::{BodyForce, BoundaryCondition};
-use crate::settings::TimeScheme;
 use crate::solver::FluidSolver;
 use crate::state::FluidState;
 use crate::trial::Trial;
 
 impl<const D: usize> FluidSolver<D> {
-    /// Starts the step of `dt` `[s]` that ends at `time` `[s]`, from the committed state with the prescribed values
-    /// of `time`. Walls with a motion of their own have moved; the interface is where it was committed until
-    /// [`impose`](Self::impose) says otherwise. A steady flow takes `dt` for nothing.
-    ///
-    /// # Errors
-    ///
-    /// If `dt` is not positive, a prescribed value is not finite, prescribed velocities and moving walls of a closed
-    /// domain do not keep its volume, or the mesh cannot follow its walls.
-    pub fn begin_step(&mut self, time: f64, dt: f64) -> Result<(), FluidError> {
-        if !(time.is_finite() && dt > 0.0 && dt.is_finite()) {
-            return Err(FluidError::TimeStep { time, dt });
-        }
-        let bdf = match self.settings.time {
-            TimeScheme::Steady => None,
-            TimeScheme::Bdf(order) => Some(Bdf::of_order(order, dt, self.committed.last_dt)),
-        };
-        self.trial.begin(&self.mesh, &self.committed, (time, dt), bdf);
-        if let Some(motion) = &mut self.motion {
-            let begun = timed(&mut self.phases.motion, || motion.begin_step(&self.committed.displacement));
-            begun.map_err(|source| FluidError::Motion { time, source })?;
-        }
-        if !self.boundaries.wall_motion.is_empty() {
-            self.move_walls(time)?;
-            self.move_mesh(time)?;
-        }
-        self.follow_mesh(time)
-    }
-
-    /// Moves the interface: total displacement from the reference mesh `[m]` at the
-    /// [`interface_nodes`](Self::interface_nodes) that are not rigid, `point * D + c`. The mesh follows, and with it mesh
-    /// velocity, prescribed values and loads.
-    ///
-    /// # Errors
-    ///
-    /// If a displacement is not finite or inverts a cell.
-    ///
-    /// # Panics
-    ///
-    /// If `displacement` does not have D entries an interface node, or outside a step.
-    pub fn impose(&mut self, displacement: &[f64]) -> Result<(), FluidError> {
-        let time = self.end_of_step();
-        let nodes = &self.boundaries.moved_interface;
-        assert_eq!(displacement.len(), nodes.len() * D, "an interface displacement has {D} entries a node");
-        for (node, given) in nodes.iter().zip(displacement.chunks_exact(D)) {
-            self.trial.displacement[node * D..(node + 1) * D].copy_from_slice(given);
-        }
-        self.move_mesh(time)?;
-        self.follow_mesh(time)
-    }
-
     /// Moves the whole mesh: total displacement `[m]` of all nodes, `node * D + c`. Nothing is solved for; walls
     /// and interface go where it says.
     ///
@@ -103,63 +52,13 @@ impl<const D: usize> FluidSolver<D> {
         self.prescribe(time)
     }
 
-    /// Newton iterations from the latest iterate under the data imposed last.
-    ///
-    /// # Errors
-    ///
-    /// See [`newton::solve`].
-    pub fn advance(&mut self, limit: Limit) -> Result<Report, Failure<FluidError>> {
-        let settings = self.settings.newton;
-        newton::solve(self, &settings, limit, |_, _| Verdict::Continue)
-    }
-
-    /// Accepts the step.
-    ///
-    /// # Panics
-    ///
-    /// Outside a step.
-    pub fn commit(&mut self) {
-        self.last_volume_defect = self.volume_defect();
-        let (time, dt) = self.trial.step.take().expect("commit ends a step that begin_step started");
-        self.committed.advance(time, dt, &self.trial.values, &self.trial.displacement);
-        self.trial.committed_mesh_velocity.copy_from_slice(&self.trial.mesh_velocity);
-    }
-
-    /// Gives the step up: back to the committed state, without a factor.
-    pub fn rewind(&mut self) {
-        self.factor_log.forget();
-        self.trial.reset(&self.mesh, &self.committed);
-    }
-
-    /// The committed state.
-    #[must_use]
-    pub fn state(&self) -> FluidState {
-        self.committed.clone()
-    }
-
-    /// Continues from a state, bit for bit. The volume defect of the step before it is not part of it.
-    ///
-    /// # Errors
-    ///
-    /// If the state belongs to another mesh.
-    pub fn restore(&mut self, state: &FluidState) -> Result<(), FluidError> {
-        self.committed.check_fits(state)?;
-        self.committed.clone_from(state);
-        self.last_volume_defect = 0.0;
-        self.mesh_is_fixed &= state.displacement.iter().all(|d| *d == 0.0);
-        // A state does not hold it.
-        self.trial.committed_mesh_velocity.fill(0.0);
-        self.rewind();
-        Ok(())
-    }
-
     /// t_{n+1}.
-    fn end_of_step(&self) -> f64 {
+    pub(crate) fn end_of_step(&self) -> f64 {
         self.trial.step.expect("begin_step comes first").0
     }
 
     /// Displacements of the walls with a motion of their own.
-    fn move_walls(&mut self, time: f64) -> Result<(), FluidError> {
+    pub(crate) fn move_walls(&mut self, time: f64) -> Result<(), FluidError> {
         for &(node, condition) in &self.boundaries.wall_motion {
             let BoundaryCondition::WallMotion(field) = &self.model.boundary[condition].1 else {
                 unreachable!("a moving wall comes from a wall motion")
@@ -172,7 +71,7 @@ impl<const D: usize> FluidSolver<D> {
     }
 
     /// The mesh follows its boundary.
-    fn move_mesh(&mut self, time: f64) -> Result<(), FluidError> {
+    pub(crate) fn move_mesh(&mut self, time: f64) -> Result<(), FluidError> {
         let Some(motion) = &mut self.motion else { return Ok(()) };
         let (committed, displacement) = (&self.committed.displacement, &mut self.trial.displacement);
         timed(&mut self.phases.motion, || motion.displace(committed, displacement))
@@ -180,7 +79,7 @@ impl<const D: usize> FluidSolver<D> {
     }
 
     /// All that depends on where the mesh is.
-    fn follow_mesh(&mut self, time: f64) -> Result<(), FluidError> {
+    pub(crate) fn follow_mesh(&mut self, time: f64) -> Result<(), FluidError> {
         if !self.mesh_is_fixed {
             self.factor_log.outdate();
         }
@@ -262,15 +161,15 @@ impl<const D: usize> Problem for FluidSolver<D> {
         timed(&mut phases.factorization, || factor.refactor(&assembly.tangent))
             .map_err(|source| FluidError::Factorization { time, source })?;
         self.factor_log.factored(self.coefficients());
-        self.solve_with_kept_factor()
+        self.solve_reusing_factor()
     }
 
     fn round_offs(&mut self) -> f64 {
         self.residual_in_round_off()
     }
 
-    fn kept_factor(&self) -> KeptFactor {
-        self.worth_of_factor()
+    fn reusable_factor(&self) -> ReusableFactor {
+        self.factor_log.worth(&self.coefficients(), self.is_linear())
     }
 
     fn take_back(&mut self) {
@@ -283,7 +182,7 @@ impl<const D: usize> Problem for FluidSolver<D> {
         self.factor_log.forget();
     }
 
-    fn solve_with_kept_factor(&mut self) -> Result<(), FluidError> {
+    fn solve_reusing_factor(&mut self) -> Result<(), FluidError> {
         let Self { factor, assembly, phases, increment, frames, trial, .. } = self;
         timed(&mut phases.solve, || factor.solve(&mut assembly.right_hand_side));
         increment.fill(0.0);

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use partita_mesh::generate::{Diagonal, RectangleMesh, rectangle};
 use partita_mesh::motion::prescribed_dofs;
 use partita_mesh::quality::shape_quality;
-use partita_mesh::vtu::{Field, PvdCollection, save_vtu};
+use partita_mesh::vtu::{Array, PvdCollection, save_vtu};
 use partita_mesh::{MeshMotion, MotionMode, MotionSettings, simplex};
 
 const STEPS: u32 = 20;
@@ -52,8 +52,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let shapes: Vec<f64> =
             mesh.cells().iter().map(|nodes| shape_quality(&simplex::vertices(&moved, nodes))).collect();
         let name = format!("bump-{step:04}.vtu");
-        let displacement = Field { name: "displacement [m]", components: 2, values: &committed };
-        let quality = Field { name: "quality", components: 1, values: &shapes };
+        let displacement = Array { name: "displacement [m]", components: 2, values: &committed };
+        let quality = Array { name: "quality", components: 1, values: &shapes };
         save_vtu(&folder.join(&name), &moved, mesh.cells(), &[displacement], &[quality])?;
         collection.push(time, &name)?;
     }

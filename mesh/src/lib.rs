@@ -48,9 +48,10 @@ pub mod topology;
 pub mod vtu;
 
 pub use cell::{CellKind, Cells};
-pub use error::{MeshError, Place};
+pub use error::MeshError;
 pub use facet::Facet;
 pub use mesh::{BoundaryGroup, Mesh, NamedFacets};
 pub use motion::{MeshMotion, MotionError, MotionLaw, MotionMode, MotionQuality, MotionSettings};
+pub use partita_numerics::Place;
 pub use solid::{SolidGroup, SolidMesh};
 pub use topology::Topology;

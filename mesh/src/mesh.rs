@@ -2,8 +2,9 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::Place;
 use crate::cell::{CellKind, Cells};
-use crate::error::{MeshError, Place};
+use crate::error::MeshError;
 use crate::facet::Facet;
 use crate::simplex;
 use crate::topology::Topology;

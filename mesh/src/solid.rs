@@ -14,8 +14,9 @@ pub mod transfer;
 
 use partita_numerics::small;
 
+use crate::Place;
 use crate::cell::{CellKind, Cells};
-use crate::error::{MeshError, Place};
+use crate::error::MeshError;
 use crate::mesh::{check_finite, check_nodes, check_range};
 
 /// A boundary group as it is given: its name and its edges, of two or three nodes as the cells ask for.

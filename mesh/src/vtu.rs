@@ -32,7 +32,7 @@ pub enum Encoding {
 /// Fields of two components are taken for plane vectors and get a zero third one, which viewers need for
 /// arrows and displaced shapes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Field<'a> {
+pub struct Array<'a> {
     /// The name that viewers show; put the unit there.
     pub name: &'a str,
     /// Components a point or cell.
@@ -73,12 +73,12 @@ pub enum VtuError {
 /// Writes an unstructured grid as VTU to `output`; points and two-component fields are padded to 3D.
 ///
 /// ```
-/// use partita_mesh::vtu::{Encoding, Field, write_vtu};
+/// use partita_mesh::vtu::{Encoding, Array, write_vtu};
 /// use partita_mesh::{CellKind, Cells};
 ///
 /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
 /// let cells = Cells::new(CellKind::Triangle3, vec![0, 1, 2]);
-/// let pressure = Field { name: "pressure [Pa]", components: 1, values: &[1.0, 2.0, 3.0] };
+/// let pressure = Array { name: "pressure [Pa]", components: 1, values: &[1.0, 2.0, 3.0] };
 /// let mut file = Vec::new();
 /// write_vtu(&mut file, &points, &cells, &[pressure], &[], Encoding::Ascii)?;
 /// assert!(String::from_utf8(file).unwrap().contains("<UnstructuredGrid>"));
@@ -95,8 +95,8 @@ pub fn write_vtu<const D: usize>(
     output: impl Write,
     points: &[[f64; D]],
     cells: &Cells,
-    point_data: &[Field<'_>],
-    cell_data: &[Field<'_>],
+    point_data: &[Array<'_>],
+    cell_data: &[Array<'_>],
     encoding: Encoding,
 ) -> io::Result<()> {
     check(points.len(), cells, point_data, cell_data);
@@ -142,8 +142,8 @@ pub fn save_vtu<const D: usize>(
     path: &Path,
     points: &[[f64; D]],
     cells: &Cells,
-    point_data: &[Field<'_>],
-    cell_data: &[Field<'_>],
+    point_data: &[Array<'_>],
+    cell_data: &[Array<'_>],
 ) -> Result<(), VtuError> {
     atomic::write(path, |file| write_vtu(file, points, cells, point_data, cell_data, Encoding::Compressed))
 }
@@ -154,7 +154,7 @@ fn document<W: Write>(output: W) -> io::Result<Writer<W>> {
     Ok(xml)
 }
 
-fn check(points: usize, cells: &Cells, point_data: &[Field<'_>], cell_data: &[Field<'_>]) {
+fn check(points: usize, cells: &Cells, point_data: &[Array<'_>], cell_data: &[Array<'_>]) {
     assert!(cells.nodes.iter().all(|&node| node < points), "a cell names a point that does not exist");
     let counts = [(point_data, points, "point"), (cell_data, cells.len(), "cell")];
     for (fields, count, place) in counts {
@@ -197,8 +197,8 @@ fn cell_arrays(cells: &Cells) -> [DataArray<'static>; 3] {
     ]
 }
 
-fn field_arrays<'a>(fields: &[Field<'a>]) -> Vec<DataArray<'a>> {
-    let array = |field: &Field<'a>| match field.components {
+fn field_arrays<'a>(fields: &[Array<'a>]) -> Vec<DataArray<'a>> {
+    let array = |field: &Array<'a>| match field.components {
         2 => {
             let padded = field.values.chunks_exact(2).flat_map(|v| [v[0], v[1], 0.0]).collect();
             DataArray::new(field.name, 3, Values::Float64(padded))

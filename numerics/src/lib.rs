@@ -20,6 +20,7 @@
 //! | [`scatter`] | element matrices and vectors into global ones |
 //! | [`factor`] | sparse LU, Cholesky and LDL^T behind one type |
 //! | [`newton`] | the Newton loop, its settings, its report |
+//! | [`field`] | what every field can do, step after step |
 //! | [`time`] | coefficients of BDF1, BDF2, generalized-alpha and Newmark |
 //! | [`gauss`] | quadrature on lines, triangles and tetrahedra |
 //! | [`lanes`] | formulas for several numbers side by side |
@@ -34,12 +35,14 @@
 pub mod connectivity;
 pub mod dofs;
 pub mod factor;
+pub mod field;
 pub mod gauss;
 pub mod lanes;
 pub mod newton;
 pub mod norms;
 pub mod pattern;
 pub mod phases;
+mod place;
 pub mod rates;
 pub mod scatter;
 pub mod small;
@@ -48,6 +51,8 @@ pub mod time;
 pub use connectivity::Connectivity;
 pub use dofs::DofMap;
 pub use factor::{Factor, FactorError, Method};
+pub use field::{Field, Part};
 pub use pattern::Pattern;
 pub use phases::PhaseSeconds;
+pub use place::Place;
 pub use scatter::Scatter;

@@ -6,8 +6,8 @@
 #[cfg(test)]
 mod chord_tests;
 mod failure;
-mod kept;
 mod norm;
+mod reuse;
 #[cfg(test)]
 mod round_off_tests;
 mod run;
@@ -16,8 +16,8 @@ mod settings;
 mod tests;
 
 pub use failure::Failure;
-pub use kept::{Coefficients, FactorLog, KeptFactor, KeptTangent};
 pub use norm::{Bound, ResidualNorm};
+pub use reuse::{Coefficients, FactorLog, ReusableFactor, ReusableTangent};
 pub use run::solve;
 pub use settings::{Check, Limit, Settings};
 
@@ -51,8 +51,8 @@ pub trait Problem {
 
     /// What the factor of the last [`solve_and_update`](Self::solve_and_update) is worth now. Unless a problem says
     /// otherwise it keeps none.
-    fn kept_factor(&self) -> KeptFactor {
-        KeptFactor::Missing
+    fn reusable_factor(&self) -> ReusableFactor {
+        ReusableFactor::Missing
     }
 
     /// Solves K ds = -R with the kept factor of K and adds ds to the iterate.
@@ -60,15 +60,15 @@ pub trait Problem {
     /// # Errors
     ///
     /// As [`solve_and_update`](Self::solve_and_update), which it is where no factor is kept.
-    fn solve_with_kept_factor(&mut self) -> Result<(), Self::Error> {
+    fn solve_reusing_factor(&mut self) -> Result<(), Self::Error> {
         self.solve_and_update()
     }
 
-    /// Takes the step of the last [`solve_with_kept_factor`](Self::solve_with_kept_factor) back: the iterate is what it was
+    /// Takes the step of the last [`solve_reusing_factor`](Self::solve_reusing_factor) back: the iterate is what it was
     /// before, at least to round-off.
     fn take_back(&mut self) {}
 
-    /// The kept factor has turned out to be of no use: [`kept_factor`](Self::kept_factor) is now `Missing`.
+    /// The kept factor has turned out to be of no use: [`reusable_factor`](Self::reusable_factor) is now `Missing`.
     fn drop_factor(&mut self) {}
 }
 

@@ -1,13 +1,12 @@
 //! From a field solver to a participant of the coupling.
 //!
 //! The fields do not know the coupling and the coupling does not know the fields; [`Adapter`] stands between them. It
-//! composes one call from the primitives of [`Field`] and the one Newton loop, and measures what the call changed and
+//! composes one call from the primitives of a [`Field`] and the one Newton loop, and measures what the call changed and
 //! what it cost. It holds no numerics of its own.
 
 mod backflow;
-mod field;
 mod slot;
-mod solvers;
+mod suspect;
 
 use std::error::Error;
 
@@ -15,13 +14,15 @@ use partita_coupling::port::total_len;
 use partita_coupling::{
     Block, Change, Effort, NewtonLimit, Participant, ParticipantError, PhaseTimes, Step, WorkDetails,
 };
-use partita_numerics::newton::{self, Bound, Failure, KeptTangent, Limit, Report, ResidualNorm, Verdict};
+use partita_numerics::field::{Field, FieldWork, Part, StateMismatch};
+use partita_numerics::newton::{self, Bound, Failure, Limit, Report, ResidualNorm, ReusableTangent, Verdict};
 use partita_numerics::norms::{norm2, relative, relative_change};
 use partita_numerics::phases::PhaseSeconds;
 use serde::{Deserialize, Serialize};
 
-pub use field::{Field, Suspect};
+pub(crate) use backflow::suspect as backflow;
 pub use slot::{Misfit, Slot, SlotState};
+pub use suspect::Suspect;
 
 /// A field as a participant of the coupling.
 pub struct Adapter<F> {
@@ -33,7 +34,9 @@ pub struct Adapter<F> {
     /// The interface output of the last call, for calls that run until it settles.
     last_output: Vec<f64>,
     /// The field's work that records have told of already. What a step does before its first call belongs to that call.
-    told: WorkDetails,
+    told: FieldWork,
+    /// What in the committed state is known to end runs, whatever the error of a step says.
+    suspect: fn(&F) -> Option<Suspect>,
 }
 
 /// What an adapter and its field remember between steps.
@@ -44,7 +47,7 @@ pub struct AdapterState<S> {
     /// The interface output of the last call.
     pub last_output: Vec<f64>,
     /// The tangent whose factor the next step may use.
-    pub tangent: Option<KeptTangent>,
+    pub tangent: Option<ReusableTangent>,
 }
 
 impl<F: Field> Adapter<F> {
@@ -54,7 +57,13 @@ impl<F: Field> Adapter<F> {
         let entry = field.values().to_vec();
         let last_output = vec![0.0; total_len(&output)];
         let told = field.work();
-        Self { field, input, output, entry, last_output, told }
+        Self { field, input, output, entry, last_output, told, suspect: |_| None }
+    }
+
+    /// Lets errors name a known cause of failures that `suspect` finds in the committed state.
+    #[must_use]
+    pub fn with_suspect(self, suspect: fn(&F) -> Option<Suspect>) -> Self {
+        Self { suspect, ..self }
     }
 
     /// The field solver.
@@ -67,9 +76,9 @@ impl<F: Field> Adapter<F> {
     #[must_use]
     pub fn state(&self) -> AdapterState<F::State> {
         AdapterState {
-            field: self.field.state(),
+            field: self.field.state().clone(),
             last_output: self.last_output.clone(),
-            tangent: self.field.kept_tangent(),
+            tangent: self.field.reusable_tangent(),
         }
     }
 
@@ -77,7 +86,10 @@ impl<F: Field> Adapter<F> {
     ///
     /// # Errors
     /// When the state belongs to another discretization.
-    pub fn restore(&mut self, state: &AdapterState<F::State>) -> Result<(), F::Error> {
+    pub fn restore(&mut self, state: &AdapterState<F::State>) -> Result<(), F::Error>
+    where
+        F::Error: From<StateMismatch>,
+    {
         self.field.restore(&state.field)?;
         if let Some(tangent) = &state.tangent {
             self.field.restore_tangent(tangent)?;
@@ -88,15 +100,11 @@ impl<F: Field> Adapter<F> {
     }
 
     fn changes(&self) -> Vec<Change> {
-        (0..self.field.part_count())
-            .map(|index| {
-                let (name, dofs) = self.field.part(index);
-                Change::new(
-                    name,
-                    relative_change(&self.entry, self.field.values(), dofs, self.field.resolution(index)),
-                )
-            })
-            .collect()
+        let change = |(index, part): (usize, &Part)| {
+            let resolution = self.field.resolution(index);
+            Change::new(part.name, relative_change(&self.entry, self.field.values(), &part.dofs, resolution))
+        };
+        self.field.parts().iter().enumerate().map(change).collect()
     }
 }
 
@@ -139,7 +147,7 @@ where
             self.field.impose(input).map_err(|error| field_error::<F>(&error))?;
         }
         let (limit, settles) = loop_limit(limit);
-        let settings = *self.field.newton();
+        let settings = *self.field.newton_settings();
         let last_output = &mut self.last_output;
         let report = newton::solve(&mut self.field, &settings, limit, |field, _| {
             let Some(tolerance) = settles else { return Verdict::Continue };
@@ -148,7 +156,7 @@ where
             last_output.copy_from_slice(output);
             if change < tolerance { Verdict::Stop } else { Verdict::Continue }
         })
-        .map_err(|failure| newton_error(&self.field, &failure))?;
+        .map_err(|failure| newton_error(&self.field, &failure, (self.suspect)(&self.field)))?;
         if report.converged {
             self.field.verify().map_err(|error| field_error::<F>(&error))?;
         }
@@ -160,7 +168,7 @@ where
         self.entry.copy_from_slice(self.field.values());
         let mut effort = effort(&report, settings.bound, changes, self.field.phases() - before);
         let work = self.field.work();
-        effort.details += work - std::mem::replace(&mut self.told, work);
+        effort.details += details(work, std::mem::replace(&mut self.told, work));
         Ok(effort)
     }
 
@@ -219,6 +227,16 @@ fn effort(report: &Report, bound: Bound, changes: Vec<Change>, phases: PhaseSeco
     }
 }
 
+/// What a field did between two readings of its work.
+fn details(now: FieldWork, then: FieldWork) -> WorkDetails {
+    WorkDetails {
+        fallbacks: now.fallbacks - then.fallbacks,
+        mesh_factorizations: now.mesh_factorizations - then.mesh_factorizations,
+        mesh_solves: now.mesh_solves - then.mesh_solves,
+        ..WorkDetails::default()
+    }
+}
+
 /// The field's error in its own words.
 fn field_error<F: Field>(error: &F::Error) -> ParticipantError
 where
@@ -229,7 +247,11 @@ where
 
 /// A failed Newton loop: where the field itself failed inside, its words follow; otherwise the place of the largest
 /// residual.
-fn newton_error<F: Field>(field: &F, failure: &Failure<F::Error>) -> ParticipantError
+fn newton_error<F: Field>(
+    field: &F,
+    failure: &Failure<F::Error>,
+    suspect: Option<Suspect>,
+) -> ParticipantError
 where
     F::Error: Error,
 {
@@ -237,17 +259,17 @@ where
         Failure::Problem { iteration, source } => {
             let mut error = field_error::<F>(source);
             error.message = format!("Newton iteration {iteration}: {}", error.message);
-            return with_suspect(error, field.suspect());
+            return with_suspect(error, suspect);
         }
         other => split_hint(F::NAME, &other.to_string()),
     };
-    if let Some(worst) = field.worst_equation() {
-        error.message = format!("{}; it is largest for {worst}", error.message);
+    if let Some(largest) = field.largest_residual() {
+        error.message = format!("{}; it is largest for {largest}", error.message);
     }
     if let Some(hint) = key_of(F::NAME, failure) {
         error.hint = Some(hint);
     }
-    with_suspect(error, field.suspect())
+    with_suspect(error, suspect)
 }
 
 /// The advice of a failed loop with the keys of the scene, where there are some to turn.

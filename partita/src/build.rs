@@ -9,7 +9,7 @@ use thiserror::Error;
 
 pub(crate) use interface::transfer;
 
-use crate::adapt::{Adapter, Slot};
+use crate::adapt::{self, Adapter, Slot};
 use partita_mesh::Mesh;
 use partita_scene::{Resolved, models, schema};
 
@@ -70,6 +70,7 @@ pub fn run_on(Resolved { scene, shapes, .. }: &Resolved, threads: usize) -> Resu
     let first = fluid.map(|fluid| {
         let points = fluid.interface_nodes().len();
         Adapter::new(fluid, displacements(points), blocks(Quantity::Force, points))
+            .with_suspect(adapt::backflow)
     });
     let second = structure.map(|structure| {
         let points = structure.interface_points().len();

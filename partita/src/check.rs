@@ -2,6 +2,7 @@
 
 mod balance;
 mod inflow;
+use partita_numerics::Field;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -70,9 +71,8 @@ pub fn describe(resolved: &Resolved, run: &Run) -> String {
 }
 
 fn memory_of(fluid: Option<&FluidSolver<2>>, structure: Option<&StructureSolver<2>>) -> f64 {
-    let of_fluid = fluid.map_or(0, |fluid| fluid.parts().iter().map(|part| part.dofs.len()).sum());
-    let of_structure =
-        structure.map_or(0, |structure| structure.parts().iter().map(|part| part.dofs.len()).sum());
+    let of_fluid = fluid.map_or(0, Field::unknowns);
+    let of_structure = structure.map_or(0, Field::unknowns);
     let degrees = structure.map_or([0; 2], |structure| degrees(structure.space()));
     memory::estimate(of_fluid, of_structure, degrees)
 }
@@ -89,7 +89,7 @@ impl Page {
 
     fn fluid(&mut self, scene: &Fluid, fluid: &FluidSolver<2>) {
         let mesh = fluid.mesh();
-        let unknowns: usize = fluid.parts().iter().map(|part| part.dofs.len()).sum();
+        let unknowns = fluid.unknowns();
         let (cells, nodes) = (mesh.cells().len(), mesh.points().len());
         self.line("fluid", format!("{cells} triangles, {nodes} nodes, {unknowns} unknowns"));
         let quality = quality::summary(mesh.points(), mesh.cells());
@@ -162,7 +162,7 @@ impl Page {
     }
 
     fn structure(&mut self, scene: &Structure, structure: &StructureSolver<2>) {
-        let unknowns: usize = structure.parts().iter().map(|part| part.dofs.len()).sum();
+        let unknowns = structure.unknowns();
         self.line("structure", format!("{}, {unknowns} unknowns", elements_of(structure.space())));
         self.line("", extent(structure.space().points()));
         self.line("", words(&scene.material));

@@ -1,8 +1,9 @@
 //! The fields of a run as a viewer shows them: in the deformed state.
+use partita_numerics::Field;
 
 use partita_fluid::FluidSolver;
 use partita_iga::Spline;
-use partita_mesh::vtu::Field;
+use partita_mesh::vtu::Array;
 use partita_mesh::{Cells, SolidMesh};
 use partita_structure::{Space, StructureSolver};
 
@@ -89,10 +90,10 @@ fn write_fluid(
     let velocity: Vec<f64> = nodes.iter().flat_map(|&[u, v, _]| [u, v]).collect();
     let pressure: Vec<f64> = nodes.iter().map(|&[_, _, p]| p).collect();
     let point_data = [
-        Field { name: "velocity [m/s]", components: 2, values: &velocity },
-        Field { name: "pressure [Pa]", components: 1, values: &pressure },
-        Field { name: "displacement [m]", components: 2, values: fluid.displacement() },
-        Field { name: "mesh velocity [m/s]", components: 2, values: fluid.mesh_velocity() },
+        Array { name: "velocity [m/s]", components: 2, values: &velocity },
+        Array { name: "pressure [Pa]", components: 1, values: &pressure },
+        Array { name: "displacement [m]", components: 2, values: fluid.displacement() },
+        Array { name: "mesh velocity [m/s]", components: 2, values: fluid.mesh_velocity() },
     ];
     let snapshot = Snapshot {
         points: fluid.points(),
@@ -146,8 +147,8 @@ fn write_deformed(
         *x += d;
     }
     let point_data = [
-        Field { name: "displacement [m]", components: 2, values: displacement },
-        Field { name: "velocity [m/s]", components: 2, values: velocity },
+        Array { name: "displacement [m]", components: 2, values: displacement },
+        Array { name: "velocity [m/s]", components: 2, values: velocity },
     ];
     let snapshot = Snapshot { points: &points, cells, point_data: &point_data, cell_data: &[] };
     writer.fields(Series::Structure, step, time, &snapshot)

@@ -2,6 +2,7 @@
 
 mod exact;
 mod line;
+use partita_numerics::Field;
 
 use std::collections::BTreeMap;
 

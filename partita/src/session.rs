@@ -7,11 +7,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use partita_coupling::{IterationRecord, MarchState, Observer, RetryRecord, StepError, StepRecord};
 use partita_fluid::FluidState;
+use partita_numerics::Field;
 use partita_numerics::time::shown;
 use partita_structure::StructureState;
 use serde::{Deserialize, Serialize};
 
-use crate::adapt::{Field, SlotState};
+use crate::adapt::SlotState;
 use crate::build::{self, BuildError, Run};
 use crate::checkpoint::{self, CheckpointError, Stamp};
 use crate::draw::Drawing;
@@ -328,9 +329,13 @@ fn estimate(run: &Run, resolved: &Resolved, drawing: &Drawing, options: Options)
 
 /// Bytes of the tangents that a checkpoint of `run` may hold once there are factors.
 fn most_kept_bytes(run: &Run) -> usize {
-    let entries =
-        run.first().field().map_or(0, Field::most_kept) + run.second().field().map_or(0, Field::most_kept);
+    let entries = run.first().field().map_or(0, most_entries) + run.second().field().map_or(0, most_entries);
     entries * size_of::<f64>()
+}
+
+/// Most entries of a tangent that a checkpoint will hold.
+fn most_entries<F: Field>(field: &F) -> usize {
+    if field.keeps_factor() { field.tangent().1.len() } else { 0 }
 }
 
 /// What happened, without the hint.

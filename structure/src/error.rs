@@ -2,7 +2,8 @@
 
 use partita_iga::Side;
 use partita_numerics::FactorError;
-use partita_numerics::time::{NewmarkError, SpectralRadiusError};
+use partita_numerics::field::StateMismatch;
+use partita_numerics::time::{self, NewmarkError, SpectralRadiusError};
 
 use crate::material::ResponseError;
 
@@ -158,15 +159,16 @@ pub enum StructureError {
     Factor(#[from] FactorError),
     /// A saved state belongs to another structure.
     #[error(
-        "the saved state has {found} values of {quantity}, the structure has {expected}\n\
+        "{0}\n\
          hint: continue a run with the patch or mesh and the parts of its boundary it was started with"
     )]
-    StateOfAnotherStructure {
-        /// The field of the state.
-        quantity: &'static str,
-        /// Its length.
-        found: usize,
-        /// The length that fits.
-        expected: usize,
+    StateOfAnotherStructure(#[from] StateMismatch),
+    /// A time step that is not one.
+    #[error("time step {dt} s to t = {} s\nhint: time steps are positive and finite", time::shown(*time))]
+    TimeStep {
+        /// The end of the step `[s]`.
+        time: f64,
+        /// Its size `[s]`.
+        dt: f64,
     },
 }

@@ -41,25 +41,24 @@ pub mod support;
 
 mod assembly;
 mod factor;
-mod kept;
+mod field;
 mod modes;
 mod newton;
 mod probe;
 mod tensor;
 mod wetted;
-mod worst;
 
 pub use boundary::Boundary;
 pub use error::StructureError;
 pub use interface::{InterfaceRow, Segment};
 pub use load::{BodyForce, VectorField};
 pub use material::{Law, Material, MaterialError, Plane, Response, ResponseError};
-pub use model::{LineSearch, Part, Rayleigh, StructureModel, StructureSettings};
+pub use model::{LineSearch, Rayleigh, StructureModel, StructureSettings};
 pub use modes::Mode;
+pub use partita_numerics::Field;
 pub use patch::Patch;
 pub use solver::StructureSolver;
 pub use space::Space;
 pub use state::StructureState;
 pub use step::TimeScheme;
 pub use support::Held;
-pub use worst::WorstEquation;

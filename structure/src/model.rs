@@ -101,12 +101,3 @@ impl Default for LineSearch {
         Self { tolerance: 0.8, max_evaluations: 10 }
     }
 }
-
-/// Unknowns that are judged together.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Part {
-    /// Its name.
-    pub name: &'static str,
-    /// Its free dofs in [`StructureSolver::values`](crate::StructureSolver::values).
-    pub dofs: Vec<usize>,
-}

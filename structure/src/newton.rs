@@ -1,6 +1,7 @@
 //! A structure as a nonlinear system for d_{n+1}.
 
-use partita_numerics::newton::{KeptFactor, Problem, ResidualNorm};
+use partita_numerics::Field;
+use partita_numerics::newton::{Problem, ResidualNorm, ReusableFactor};
 use partita_numerics::norms::{norm2_at, relative};
 use partita_numerics::phases::{Stopwatch, timed};
 
@@ -34,7 +35,7 @@ impl<const D: usize> Problem for StructureSolver<D> {
         let (pattern, tangent) = (self.assembly.pattern(), &self.work.tangent);
         timed(&mut self.phases.factorization, || self.factor.refactor(pattern, tangent))?;
         self.factor_log.factored(self.coefficients());
-        self.solve_with_kept_factor()
+        self.solve_reusing_factor()
     }
 
     /// The unit is that of the last bits: of the displacement, in every term that depends on it, and of the terms themselves.
@@ -42,8 +43,8 @@ impl<const D: usize> Problem for StructureSolver<D> {
         self.residual_in_round_off()
     }
 
-    fn kept_factor(&self) -> KeptFactor {
-        self.worth_of_factor()
+    fn reusable_factor(&self) -> ReusableFactor {
+        self.factor_log.worth(&self.coefficients(), self.is_linear())
     }
 
     fn take_back(&mut self) {
@@ -55,7 +56,7 @@ impl<const D: usize> Problem for StructureSolver<D> {
         self.factor_log.forget();
     }
 
-    fn solve_with_kept_factor(&mut self) -> Result<(), StructureError> {
+    fn solve_reusing_factor(&mut self) -> Result<(), StructureError> {
         let Work { residual, increment, start, .. } = &mut self.work;
         start.copy_from_slice(&self.trial.displacement);
         let dofs = self.assembly.dofs();

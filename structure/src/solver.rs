@@ -1,15 +1,16 @@
 //! The solver of a structure: built once, then step after step.
 
 use partita_iga::Spline;
-use partita_numerics::newton::{self, FactorLog, Failure, Limit, Report, Verdict};
-use partita_numerics::norms::extent;
-use partita_numerics::{DofMap, Pattern, PhaseSeconds};
+#[cfg(doc)]
+use partita_numerics::newton;
+use partita_numerics::newton::FactorLog;
+use partita_numerics::{DofMap, Field, Part, PhaseSeconds};
 
 use crate::assembly::{Assembly, Forces, Local, Motion};
 use crate::error::StructureError;
 use crate::factor::TangentFactor;
 use crate::load::Loads;
-use crate::model::{Part, StructureModel, StructureSettings};
+use crate::model::{StructureModel, StructureSettings};
 use crate::space::Space;
 use crate::state::StructureState;
 use crate::step::{Scheme, Step};
@@ -23,9 +24,9 @@ use crate::step::{Scheme, Step};
 /// ```
 ///
 /// is kept on all dofs, those of supports included: there it holds the reactions. A step starts from
-/// `d_n`. The caller composes it from [`begin_step`](Self::begin_step), [`impose`](Self::impose),
-/// [`newton::solve`] and [`commit`](Self::commit) or [`rewind`](Self::rewind); a structure alone takes
-/// [`advance`](Self::advance).
+/// `d_n`. The caller composes it from [`begin_step`](Field::begin_step), [`impose`](Field::impose),
+/// [`newton::solve`] and [`commit`](Field::commit) or [`rewind`](Field::rewind); a structure alone takes
+/// [`step_alone`](Field::step_alone).
 ///
 /// ```
 /// use partita_iga::{Side, build};
@@ -43,7 +44,7 @@ use crate::step::{Scheme, Step};
 /// };
 /// let settings = StructureSettings { time: TimeScheme::QuasiStatic, ..Default::default() };
 /// let mut cantilever = StructureSolver::new(patch.into(), model, settings)?;
-/// let report = cantilever.advance(1.0, 1.0)?;
+/// let report = cantilever.step_alone(1.0, 1.0)?;
 /// assert!(report.converged);
 ///
 /// let [_, deflection] = cantilever.displacement_at(&[1.0, 0.5]);
@@ -55,15 +56,15 @@ pub struct StructureSolver<const D: usize> {
     pub(crate) space: Space<D>,
     pub(crate) model: StructureModel<D>,
     pub(crate) settings: StructureSettings,
-    scheme: Scheme,
+    pub(crate) scheme: Scheme,
     pub(crate) assembly: Assembly<D>,
     pub(crate) factor: TangentFactor,
     pub(crate) factor_log: FactorLog,
-    loads: Loads<D>,
-    parts: [Part; 1],
+    pub(crate) loads: Loads<D>,
+    pub(crate) parts: [Part; 1],
     pub(crate) committed: StructureState,
     pub(crate) trial: StructureState,
-    step: Option<Step>,
+    pub(crate) step: Option<Step>,
     pub(crate) work: Work<D>,
     pub(crate) phases: PhaseSeconds,
 }
@@ -145,75 +146,6 @@ impl<const D: usize> StructureSolver<D> {
         self.loads.interface_points()
     }
 
-    /// Begins the step of size `dt` `[s]` that ends at `time` `[s]`, from the committed state: `d = d_n` under the body
-    /// force of `time` and the interface force of the committed state, until [`impose`](Self::impose) replaces it.
-    ///
-    /// # Panics
-    /// When `dt` is not positive and finite.
-    pub fn begin_step(&mut self, time: f64, dt: f64) {
-        self.step = Some(Step::new(self.scheme, dt));
-        self.trial.copy_from(&self.committed);
-        self.set_time(time);
-        self.update_rates();
-    }
-
-    /// Imposes the forces `[N, in 2D N/m]` at the interface points at `t_{n+1}`, numbered `point * D + c`.
-    ///
-    /// Like every load they act at `n+1-alpha_f`, averaged with those of `t_n`.
-    ///
-    /// # Panics
-    /// When there is not one value for each component of each interface point.
-    pub fn impose(&mut self, interface_force: &[f64]) {
-        assert_eq!(
-            interface_force.len(),
-            self.trial.interface_force.len(),
-            "the interface force has the wrong length"
-        );
-        self.trial.interface_force.copy_from_slice(interface_force);
-        self.update_external_force();
-    }
-
-    /// Displacements `[m]` of the interface points at `t_{n+1}`, numbered `point * D + c`.
-    ///
-    /// # Panics
-    /// When `displacement` has the wrong length.
-    pub fn output(&self, displacement: &mut [f64]) {
-        let points = self.interface_points();
-        assert_eq!(displacement.len(), points.len() * D, "the output has the wrong length");
-        let all = self.trial.displacement.as_chunks::<D>().0;
-        for (entry, &point) in displacement.as_chunks_mut::<D>().0.iter_mut().zip(points) {
-            *entry = all[point];
-        }
-    }
-
-    /// Accepts the step: the trial state becomes the committed one.
-    pub fn commit(&mut self) {
-        self.committed.copy_from(&self.trial);
-    }
-
-    /// Gives the step up: the trial state becomes the committed one again, without a factor.
-    pub fn rewind(&mut self) {
-        self.factor_log.forget();
-        self.trial.copy_from(&self.committed);
-    }
-
-    /// Steps a structure alone to `time` `[s]` by one step of size `dt` `[s]`: Newton to convergence, then commit.
-    ///
-    /// # Errors
-    /// When Newton fails, or the solution turns an element inside out; the step is then given up.
-    pub fn advance(&mut self, time: f64, dt: f64) -> Result<Report, Failure<StructureError>> {
-        self.begin_step(time, dt);
-        let settings = self.settings.newton;
-        let report = newton::solve(self, &settings, Limit::ToConvergence, |_, _| Verdict::Continue).and_then(
-            |report| self.check_orientation().map(|()| report).map_err(|source| folded(&report, source)),
-        );
-        match report {
-            Ok(_) => self.commit(),
-            Err(_) => self.rewind(),
-        }
-        report
-    }
-
     /// Makes the committed state one of dynamic equilibrium under the loads of `time` `[s]`: sets `F_0` to the body force
     /// (and the interface force of the state), and `a_0` by
     ///
@@ -251,59 +183,16 @@ impl<const D: usize> StructureSolver<D> {
         self.update_rates();
     }
 
-    /// Displacement of all control points in the trial state `[m]`, numbered `control_point * D + c`.
-    #[must_use]
-    pub fn values(&self) -> &[f64] {
-        &self.trial.displacement
-    }
-
-    /// The unknowns in [`values`](Self::values) that are judged together: one part, `displacement`.
-    #[must_use]
-    pub fn parts(&self) -> &[Part] {
-        &self.parts
-    }
-
-    /// Displacements `[m]` whose difference has a smaller norm than this are the same shape: they differ by less than the
-    /// last bit of the coordinates.
-    #[must_use]
-    pub fn resolution(&self) -> f64 {
-        f64::EPSILON * extent(self.space.points())
-    }
-
     /// The residual R `[N, in 2D N/m]` of the last assembly on all dofs; in the rows of supports it holds the reactions.
     #[must_use]
     pub fn residual(&self) -> &[f64] {
         &self.work.residual
     }
 
-    /// The tangent dR/d(d_{n+1}) `[N/m, in 2D N/m^2]` of the last assembly that asked for it: values on a pattern over
-    /// the free dofs of [`parts`](Self::parts).
-    #[must_use]
-    pub fn tangent(&self) -> (&Pattern, &[f64]) {
-        (self.assembly.pattern(), &self.work.tangent)
-    }
-
-    /// The trial state: `t_{n+1}` between [`begin_step`](Self::begin_step) and [`commit`](Self::commit).
+    /// The trial state: `t_{n+1}` between [`begin_step`](Field::begin_step) and [`commit`](Field::commit).
     #[must_use]
     pub fn trial(&self) -> &StructureState {
         &self.trial
-    }
-
-    /// The committed state.
-    #[must_use]
-    pub fn state(&self) -> &StructureState {
-        &self.committed
-    }
-
-    /// Continues from a saved state, with the same bits as the run that saved it.
-    ///
-    /// # Errors
-    /// When its lengths are those of another structure.
-    pub fn restore(&mut self, state: &StructureState) -> Result<(), StructureError> {
-        self.committed.check_fits(state)?;
-        self.committed.copy_from(state);
-        self.rewind();
-        Ok(())
     }
 
     /// Geometry and displacement space in the reference configuration.
@@ -340,18 +229,6 @@ impl<const D: usize> StructureSolver<D> {
         &self.model
     }
 
-    /// When the Newton loop ends.
-    #[must_use]
-    pub fn newton_settings(&self) -> &newton::Settings {
-        &self.settings.newton
-    }
-
-    /// Time spent since the solver was built `[s]`.
-    #[must_use]
-    pub fn phases(&self) -> PhaseSeconds {
-        self.phases
-    }
-
     /// How many tangents were not positive definite since the solver was built: past a buckling load, say.
     #[must_use]
     pub fn indefinite_tangents(&self) -> usize {
@@ -377,13 +254,13 @@ impl<const D: usize> StructureSolver<D> {
         step.follow(&self.committed, &mut self.trial);
     }
 
-    fn set_time(&mut self, time: f64) {
+    pub(crate) fn set_time(&mut self, time: f64) {
         self.trial.time = time;
         self.loads.set_time(time, &self.assembly);
         self.update_external_force();
     }
 
-    fn update_external_force(&mut self) {
+    pub(crate) fn update_external_force(&mut self) {
         let StructureState { interface_force, external_force, .. } = &mut self.trial;
         self.loads.external_force(interface_force, external_force);
     }
@@ -420,9 +297,4 @@ impl<const D: usize> Work<D> {
             local: assembly.local(),
         }
     }
-}
-
-/// A solution that is none, found in the last iteration.
-fn folded(report: &Report, source: StructureError) -> Failure<StructureError> {
-    Failure::Problem { iteration: report.iterations, source }
 }

@@ -1,8 +1,7 @@
 //! What a structure carries from step to step.
 
+use partita_numerics::field::StateMismatch;
 use serde::{Deserialize, Serialize};
-
-use crate::error::StructureError;
 
 /// The motion of a structure at one time, with the loads that generalized-alpha averages over the step.
 ///
@@ -48,20 +47,18 @@ impl StructureState {
     }
 
     /// Refuses a state whose lengths are not those of `self`.
-    pub(crate) fn check_fits(&self, other: &Self) -> Result<(), StructureError> {
+    pub(crate) fn check_fits(&self, other: &Self) -> Result<(), StateMismatch> {
         let fields = |state: &Self| {
             [
-                ("displacement", state.displacement.len()),
-                ("velocity", state.velocity.len()),
-                ("acceleration", state.acceleration.len()),
-                ("external force", state.external_force.len()),
-                ("interface force", state.interface_force.len()),
+                ("values of the displacement", state.displacement.len()),
+                ("values of the velocity", state.velocity.len()),
+                ("values of the acceleration", state.acceleration.len()),
+                ("values of the external force", state.external_force.len()),
+                ("values of the interface force", state.interface_force.len()),
             ]
         };
-        for ((quantity, expected), (_, found)) in fields(self).into_iter().zip(fields(other)) {
-            if found != expected {
-                return Err(StructureError::StateOfAnotherStructure { quantity, found, expected });
-            }
+        for ((what, expected), (_, found)) in fields(self).into_iter().zip(fields(other)) {
+            StateMismatch::check(what, found, expected)?;
         }
         Ok(())
     }

@@ -1,4 +1,5 @@
 //! The manufactured flow against its formulas, as its scene probes it.
+use partita_numerics::Field;
 
 use std::path::Path;
 

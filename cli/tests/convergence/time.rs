@@ -1,4 +1,5 @@
 //! The coupled problem in time, against itself with half the step.
+use partita_numerics::Field;
 
 use partita::build;
 use partita::scene;

@@ -1,4 +1,5 @@
 //! What runs costs, and what does not run costs nothing: counts of assemblies, factorizations and solves.
+use partita_numerics::Field;
 
 use std::path::Path;
 

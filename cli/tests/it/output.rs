@@ -13,7 +13,7 @@ use partita_coupling::record::{
     self, FieldRecord, FieldSeconds, IterationRecord, Record, StepHistory, StepRecord,
 };
 use partita_coupling::{Step, accelerate::Proposal};
-use partita_mesh::vtu::Field;
+use partita_mesh::vtu::Array;
 
 const SCENE: &str = "title = \"two steps\"\n";
 const DT: f64 = 0.01;
@@ -77,7 +77,7 @@ fn write_steps(writer: &mut RunWriter, steps: impl IntoIterator<Item = usize>, s
         writer.step(&record).expect("written");
         writer.probes(step, record.time, &[0.1 * step as f64, -0.0]).expect("written");
         let values = [step as f64; 8];
-        let displacement = Field { name: "displacement [m]", components: 2, values: &values };
+        let displacement = Array { name: "displacement [m]", components: 2, values: &values };
         let snapshot = Snapshot {
             points: drawing.parameters(),
             cells: drawing.cells(),

@@ -1,4 +1,5 @@
 //! The work at the interface of a real run, as the fluid gives it and as the structure gets it.
+use partita_numerics::Field;
 
 use partita::build::{self, Run};
 use partita_coupling::Record;

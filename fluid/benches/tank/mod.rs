@@ -1,4 +1,5 @@
 //! The tank whose Newton iterations are timed.
+use partita_numerics::Field;
 
 use std::sync::Arc;
 

@@ -1,4 +1,5 @@
 //! Meshes, error norms and checks that the studies share.
+use partita_numerics::Field;
 
 use partita_fluid::{BoundaryCondition, FluidSolver, VectorField};
 use partita_mesh::generate::{Diagonal, RectangleMesh, rectangle};

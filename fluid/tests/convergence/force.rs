@@ -1,4 +1,5 @@
 //! The force on one side of the vortex, whose corners belong to two sides each.
+use partita_numerics::Field;
 
 use std::f64::consts::PI;
 

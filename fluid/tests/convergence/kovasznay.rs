@@ -1,4 +1,5 @@
 //! The flow behind a grid, an exact solution of the full equations without any force.
+use partita_numerics::Field;
 
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -1,4 +1,5 @@
 //! A manufactured vortex, steady in space: on a mesh at rest, and on one that moves through it.
+use partita_numerics::Field;
 
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -1,4 +1,5 @@
 //! A vortex that decays by viscosity alone, in a box whose walls slip.
+use partita_numerics::Field;
 
 use std::f64::consts::PI;
 use std::sync::Arc;

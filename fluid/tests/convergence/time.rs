@@ -1,5 +1,6 @@
 //! Flows linear in space, where every error is one of the time scheme: at rest and on a moving mesh, with even and
 //! uneven steps.
+use partita_numerics::Field;
 
 use std::sync::Arc;
 

@@ -1,4 +1,5 @@
 //! What a Newton iteration and the forces after it may allocate: nothing.
+use partita_numerics::Field;
 
 use allocation_counter::measure;
 use partita_fluid::{BoundaryCondition, FluidModel, FluidSolver, InitialState};

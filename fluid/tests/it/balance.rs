@@ -1,4 +1,5 @@
 //! Consistent forces balance: what the boundary does to the fluid is what changes its momentum.
+use partita_numerics::Field;
 
 use partita_fluid::{BodyForce, BoundaryCondition, FluidModel, FluidSolver, TimeScheme};
 

@@ -1,4 +1,5 @@
 //! Domains without outflow whose boundary moves, or through which fluid is driven.
+use partita_numerics::Field;
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,4 +1,5 @@
 //! Meshes, fields and runs that the tests share.
+use partita_numerics::Field;
 
 use std::sync::Arc;
 

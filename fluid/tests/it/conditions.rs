@@ -1,4 +1,5 @@
 //! Boundary conditions: precedence at corners, walls in any direction, developed outflow.
+use partita_numerics::Field;
 
 use partita_fluid::{BodyForce, BoundaryCondition, FluidModel, FluidSettings, FluidSolver, TimeScheme};
 use partita_mesh::Mesh;

@@ -1,4 +1,5 @@
 //! What a fluid refuses, and what it says.
+use partita_numerics::Field;
 
 use partita_fluid::{
     BoundaryCondition, FluidError, FluidModel, FluidSettings, FluidSolver, PressurePin, TimeScheme,

@@ -1,4 +1,5 @@
 //! Flows that lie in the discrete spaces and must be found to round-off.
+use partita_numerics::Field;
 
 use partita_fluid::{
     BodyForce, BoundaryCondition, FluidModel, FluidSettings, FluidSolver, InitialState, PressurePin,

@@ -1,4 +1,5 @@
 //! The tangents of the fluid under the factorization made for them.
+use partita_numerics::Field;
 
 use partita_fluid::{BodyForce, BoundaryCondition, FluidModel, FluidSettings, FluidSolver, InitialState};
 use partita_mesh::Mesh;

@@ -1,4 +1,5 @@
 //! A boundary that moves: velocities, forces, balance of volume.
+use partita_numerics::Field;
 
 use partita_fluid::{BodyForce, BoundaryCondition, FluidModel, FluidSettings, FluidSolver, TimeScheme};
 use partita_mesh::motion::{MotionMode, MotionSettings};

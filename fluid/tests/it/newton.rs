@@ -1,4 +1,5 @@
 //! How fast Newton's method converges, and how little it does when there is nothing to do.
+use partita_numerics::Field;
 
 use partita_fluid::{
     BodyForce, BoundaryCondition, FluidModel, FluidSettings, FluidSolver, PressurePin, Tangent, TimeScheme,
@@ -188,12 +189,12 @@ fn the_worst_equation_is_where_the_balance_is_missed() {
     values[3 * middle + 1] += 1e3;
     fluid.set_values(&values).expect("finite values");
     fluid.assemble(false).expect("a residual");
-    let worst = fluid.worst_equation().expect("an equation");
+    let worst = fluid.largest_residual().expect("an equation");
     assert_eq!((worst.node, worst.equation), (middle, "momentum in y"));
     assert!((worst.residual - fluid.residual()[3 * middle + 1]).abs() < 1e-12 * worst.residual.abs());
     assert_eq!(worst.to_string(), format!("momentum in y at node {middle}, (0.5, 0.5) m"));
     values[3 * middle] = f64::NAN;
     fluid.set_values(&values).expect("values");
     fluid.assemble(false).expect("a residual");
-    assert!(fluid.worst_equation().expect("an equation").residual.is_nan());
+    assert!(fluid.largest_residual().expect("an equation").residual.is_nan());
 }

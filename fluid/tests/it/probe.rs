@@ -1,4 +1,5 @@
 //! Energy, flow rates and the balance of volume.
+use partita_numerics::Field;
 
 use partita_fluid::{BoundaryCondition, FluidModel, FluidSolver, InitialState, TimeScheme};
 

@@ -1,4 +1,5 @@
 //! Forces at nodes that boundaries of several kinds share.
+use partita_numerics::Field;
 
 use partita_fluid::{
     BodyForce, BoundaryCondition, FluidModel, FluidSettings, FluidSolver, PressurePin, TimeScheme,

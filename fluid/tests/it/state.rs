@@ -1,4 +1,5 @@
 //! Commit, rewind and restore.
+use partita_numerics::Field;
 
 use partita_fluid::{
     BodyForce, BoundaryCondition, FluidModel, FluidSettings, FluidSolver, InitialState, TimeScheme,
@@ -55,10 +56,10 @@ fn step_given_up_and_redone_gives_the_same_bits() {
     let (mut plain, mut hesitant) = (tank(BDF2), tank(BDF2));
     run(&mut plain, 0..2);
     run(&mut hesitant, 0..2);
-    let before = hesitant.state();
+    let before = hesitant.state().clone();
     try_step(&mut hesitant, 0.5, 0.31);
     hesitant.rewind();
-    assert_eq!(hesitant.state(), before);
+    assert_eq!(*hesitant.state(), before);
     assert_eq!(hesitant.values(), before.values);
     assert_eq!(hesitant.displacement(), before.displacement);
     run(&mut plain, 2..4);
@@ -70,7 +71,7 @@ fn step_given_up_and_redone_gives_the_same_bits() {
 fn restored_state_continues_with_the_same_bits() {
     let mut whole = tank(BDF2);
     run(&mut whole, 0..3);
-    let checkpoint = whole.state();
+    let checkpoint = whole.state().clone();
     run(&mut whole, 3..6);
     let mut resumed = tank(BDF2);
     resumed.restore(&checkpoint).expect("a state of this mesh");
@@ -88,12 +89,12 @@ fn restored_state_continues_with_the_same_bits() {
 fn commit_makes_the_trial_the_committed_state() {
     let mut fluid = tank(BDF2);
     run(&mut fluid, 0..1);
-    let first = fluid.state();
+    let first = fluid.state().clone();
     try_step(&mut fluid, first.time + 0.02, 0.02);
-    assert_eq!(fluid.state(), first, "nothing is committed before commit");
+    assert_eq!(*fluid.state(), first, "nothing is committed before commit");
     let (values, displacement) = (fluid.values().to_vec(), fluid.displacement().to_vec());
     fluid.commit();
-    let second = fluid.state();
+    let second = fluid.state().clone();
     assert_eq!(second.last_dt, Some(0.02));
     assert_eq!((&second.values, &second.displacement), (&values, &displacement));
     assert_eq!(
@@ -120,11 +121,11 @@ fn second_order_starts_with_a_step_of_first_order() {
 #[test]
 fn state_of_another_mesh_is_refused() {
     let mut fluid = tank(BDF2);
-    let mut state = fluid.state();
+    let mut state = fluid.state().clone();
     state.values.pop();
     let error = fluid.restore(&state).expect_err("a state that does not fit");
     insta::assert_snapshot!(error, @r"
-    fluid: the state to restore has 122 values, this fluid 123
+    fluid: the saved state has 122 values, the field has 123
     hint: states fit only the mesh they were saved from
     ");
 }

@@ -1,4 +1,5 @@
 //! Flow without convection: linear equations, whose factor serves as long as mesh and step size stay.
+use partita_numerics::Field;
 
 use partita_fluid::{BoundaryCondition, FluidSettings, FluidSolver, TimeScheme};
 use partita_numerics::newton::{Limit, Report};
@@ -100,7 +101,7 @@ fn a_step_that_is_given_up_takes_its_factor_along() {
     fluid.begin_step(0.1, 0.1).expect("a step");
     fluid.advance(Limit::ToConvergence).expect("convergence");
     fluid.rewind();
-    assert!(fluid.kept_tangent().is_none());
+    assert!(fluid.reusable_tangent().is_none());
     assert_eq!(factorizations(&steps(&mut fluid, &[0.1, 0.1])), [1, 0]);
 }
 
@@ -109,14 +110,15 @@ fn a_restored_tangent_gives_the_same_bits() {
     let mut whole = channel(1.0, stokes(BDF1));
     steps(&mut whole, &[0.1, 0.1]);
     let mut resumed = channel(1.0, stokes(BDF1));
-    resumed.restore(&whole.state()).expect("the state fits");
-    resumed.restore_tangent(&whole.kept_tangent().expect("a factor")).expect("the tangent fits");
+    resumed.restore(whole.state()).expect("the state fits");
+    resumed.restore_tangent(&whole.reusable_tangent().expect("a factor")).expect("the tangent fits");
     assert_eq!(steps(&mut whole, &[0.1; 2]), steps(&mut resumed, &[0.1; 2]));
     assert_eq!(whole.state(), resumed.state());
     let other = perturbed(&unit_square(5), 0.02, 5);
     let wall = everywhere(&other, &BoundaryCondition::StressFree { backflow: false });
     let mut other = FluidSolver::new(other, model(wall), stokes(BDF1)).expect("a fluid");
-    let error = other.restore_tangent(&whole.kept_tangent().expect("a factor")).expect_err("another mesh");
+    let error =
+        other.restore_tangent(&whole.reusable_tangent().expect("a factor")).expect_err("another mesh");
     assert!(error.to_string().contains("entries of the kept tangent"), "{error}");
 }
 

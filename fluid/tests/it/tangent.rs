@@ -1,4 +1,5 @@
 //! The assembled tangent against differences of the assembled residual.
+use partita_numerics::Field;
 
 use partita_fluid::{BoundaryCondition, FluidSettings, FluidSolver, PressurePin, TimeScheme};
 use partita_mesh::Mesh;

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use super::element::ElementKind;
 use super::fault::{Fault, excerpt};
-use crate::error::{MeshError, Place};
+use crate::Place;
+use crate::error::MeshError;
 
 /// A place in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use super::document::GmshFile;
 use super::element::ElementKind;
 use super::error::ConvertError;
-use crate::error::Place;
+use crate::Place;
 use crate::simplex;
 
 impl GmshFile {

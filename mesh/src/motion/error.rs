@@ -2,7 +2,7 @@
 
 use partita_numerics::FactorError;
 
-use crate::error::Place;
+use crate::Place;
 
 /// Why the mesh cannot follow its boundary.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 
 use super::{NamedEdges, SolidGroup, check_range, reference};
+use crate::Place;
 use crate::cell::Cells;
-use crate::error::{MeshError, Place};
+use crate::error::MeshError;
 
 /// An edge as its cell sees it: both ends, then the node between them, if any; the cell is on its left.
 #[derive(Debug, Clone)]

@@ -13,8 +13,8 @@
 //! non-matching discrete interfaces*, Comput. Methods Appl. Mech. Eng. 157 (1998), sections 3 and 4.
 
 use super::{SolidMesh, reference};
+use crate::Place;
 use crate::cell::CellKind;
-use crate::error::Place;
 
 /// Samples a curved edge is searched from: between two of them its distance from a point has one minimum.
 const SAMPLES: usize = 16;

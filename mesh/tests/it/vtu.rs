@@ -3,7 +3,7 @@
 use std::fs;
 
 use partita_mesh::generate::Diagonal;
-use partita_mesh::vtu::{Encoding, Field, PvdCollection, VtuError, save_vtu, write_vtu};
+use partita_mesh::vtu::{Array, Encoding, PvdCollection, VtuError, save_vtu, write_vtu};
 use partita_mesh::{CellKind, Cells, Mesh};
 
 use crate::boxes::{field, unit_cube, unit_square};
@@ -14,8 +14,8 @@ fn written<const D: usize>(mesh: &Mesh<D>, encoding: Encoding) -> (File, Vec<f64
     let velocity = field(mesh, |x| x.map(|x| (0.1 + x).sqrt()));
     let number: Vec<f64> = (0..mesh.cells().len()).map(|cell| 1.0 / (1.0 + cell as f64)).collect();
     let mut file = Vec::new();
-    let point_data = [Field { name: "velocity [m/s]", components: D, values: &velocity }];
-    let cell_data = [Field { name: "a < b & \"c\"", components: 1, values: &number }];
+    let point_data = [Array { name: "velocity [m/s]", components: D, values: &velocity }];
+    let cell_data = [Array { name: "a < b & \"c\"", components: 1, values: &number }];
     write_vtu(&mut file, mesh.points(), mesh.cells(), &point_data, &cell_data, encoding)
         .expect("memory takes it all");
     (read(&String::from_utf8(file).expect("XML is text")), velocity, number)
@@ -66,7 +66,7 @@ fn whole_blocks_come_back() {
         let cells = Cells::new(CellKind::Line2, (1..points.len()).flat_map(|i| [i - 1, i]).collect());
         let square: Vec<f64> = points.iter().map(|x| x[0] * x[0]).collect();
         let mut file = Vec::new();
-        let data = [Field { name: "square", components: 1, values: &square }];
+        let data = [Array { name: "square", components: 1, values: &square }];
         write_vtu(&mut file, &points, &cells, &data, &[], Encoding::Compressed).expect("memory");
         let file = read(&String::from_utf8(file).expect("text"));
         assert_eq!(file.arrays["square"].values, square);
@@ -88,7 +88,7 @@ fn text_form_is_readable() {
     let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.1], [0.0, 0.1]];
     let cells = Cells::new(CellKind::Quadrilateral4, vec![0, 1, 2, 3]);
     let displacement = [0.0, 0.0, 0.5, -1e-9, 0.0, 0.0, 0.0, 0.0];
-    let data = [Field { name: "displacement [m]", components: 2, values: &displacement }];
+    let data = [Array { name: "displacement [m]", components: 2, values: &displacement }];
     let mut file = Vec::new();
     write_vtu(&mut file, &points, &cells, &data, &[], Encoding::Ascii).expect("memory");
     insta::assert_snapshot!(String::from_utf8(file).expect("text"), @r#"
@@ -138,7 +138,7 @@ fn text_form_is_readable() {
 #[should_panic(expected = "field `pressure` has 1 components a point")]
 fn field_of_a_wrong_length_is_refused() {
     let mesh = unit_square(1, Diagonal::Right);
-    let data = [Field { name: "pressure", components: 1, values: &[1.0, 2.0] }];
+    let data = [Array { name: "pressure", components: 1, values: &[1.0, 2.0] }];
     let _ = write_vtu(Vec::new(), mesh.points(), mesh.cells(), &data, &[], Encoding::Ascii);
 }
 

@@ -67,17 +67,17 @@ impl Problem for Curves {
     fn solve_and_update(&mut self) -> Result<(), Self::Error> {
         self.inverse = small::inverse(&self.tangent).expect("the tangent of this iterate").0;
         self.log.factored([0.0; 3]);
-        self.solve_with_kept_factor()
+        self.solve_reusing_factor()
     }
 
-    fn solve_with_kept_factor(&mut self) -> Result<(), Self::Error> {
+    fn solve_reusing_factor(&mut self) -> Result<(), Self::Error> {
         self.start = self.point;
         let step = small::apply(&self.inverse, &self.residual);
         self.point = [self.point[0] - step[0], self.point[1] - step[1]];
         Ok(())
     }
 
-    fn kept_factor(&self) -> KeptFactor {
+    fn reusable_factor(&self) -> ReusableFactor {
         self.log.worth(&[0.0; 3], self.is_linear)
     }
 
@@ -174,7 +174,7 @@ fn a_call_of_one_iteration_remembers_for_the_next_that_its_factor_was_slow() {
 }
 
 #[test]
-fn without_the_setting_a_kept_factor_changes_nothing() {
+fn without_the_setting_a_reusable_factor_changes_nothing() {
     let (mut kept, mut forgotten) = (Curves::new(false), Curves::new(false));
     for radius in [2.0, 2.5, 3.0] {
         (kept.radius, forgotten.radius) = (radius, radius);
@@ -202,15 +202,15 @@ fn a_linear_problem_is_factored_once() {
 fn a_factor_is_worth_what_its_coefficients_say() {
     let (now, other) = ([1.0, 0.0, 2.0], [1.5, 0.0, 2.0]);
     let mut log = FactorLog::default();
-    assert_eq!(log.worth(&now, true), KeptFactor::Missing);
+    assert_eq!(log.worth(&now, true), ReusableFactor::Missing);
     assert_eq!(log.tangent(&[1.0]), None);
     log.factored(now);
-    assert_eq!(log.worth(&now, true), KeptFactor::Exact);
-    assert_eq!(log.worth(&now, false), KeptFactor::Earlier);
-    assert_eq!(log.worth(&other, true), KeptFactor::Missing);
-    assert_eq!(log.tangent(&[4.0]), Some(KeptTangent { coefficients: now, values: vec![4.0] }));
+    assert_eq!(log.worth(&now, true), ReusableFactor::Exact);
+    assert_eq!(log.worth(&now, false), ReusableFactor::Earlier);
+    assert_eq!(log.worth(&other, true), ReusableFactor::Missing);
+    assert_eq!(log.tangent(&[4.0]), Some(ReusableTangent { coefficients: now, values: vec![4.0] }));
     log.outdate();
-    assert_eq!(log.worth(&now, true), KeptFactor::Earlier);
+    assert_eq!(log.worth(&now, true), ReusableFactor::Earlier);
     log.forget();
-    assert_eq!(log.worth(&now, false), KeptFactor::Missing);
+    assert_eq!(log.worth(&now, false), ReusableFactor::Missing);
 }

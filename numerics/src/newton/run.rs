@@ -1,7 +1,7 @@
 //! The loop itself.
 
 use super::{
-    Bound, Check, Failure, Iteration, KeptFactor, Limit, Problem, Report, ResidualNorm, Settings, Verdict,
+    Bound, Check, Failure, Iteration, Limit, Problem, Report, ResidualNorm, ReusableFactor, Settings, Verdict,
 };
 
 /// Runs Newton iterations on `problem` from its current iterate until the bound is met, `limit` is reached
@@ -84,8 +84,8 @@ pub fn solve<P: Problem>(
             assemble(problem, report.iterations, true, Some((entry, before)))?;
             report.count_assembly(true);
         }
-        let is_chord = !refactors && problem.kept_factor() == KeptFactor::Earlier;
-        let solved = if refactors { problem.solve_and_update() } else { problem.solve_with_kept_factor() };
+        let is_chord = !refactors && problem.reusable_factor() == ReusableFactor::Earlier;
+        let solved = if refactors { problem.solve_and_update() } else { problem.solve_reusing_factor() };
         solved.map_err(|source| Failure::Problem { iteration: index, source })?;
         report.count_solve(refactors);
         let is_last = index == most || (lagged && level.is_converged());
@@ -128,10 +128,10 @@ pub fn solve<P: Problem>(
 
 /// Whether the next solve has to factor the tangent of its iterate.
 fn needs_tangent<P: Problem>(problem: &P, settings: &Settings) -> bool {
-    match problem.kept_factor() {
-        KeptFactor::Missing => true,
-        KeptFactor::Earlier => settings.reuse_factor.is_none(),
-        KeptFactor::Exact => false,
+    match problem.reusable_factor() {
+        ReusableFactor::Missing => true,
+        ReusableFactor::Earlier => settings.reuse_factor.is_none(),
+        ReusableFactor::Exact => false,
     }
 }
 

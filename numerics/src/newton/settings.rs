@@ -34,7 +34,7 @@ pub struct Settings {
     pub divergence_factor: f64,
     /// Chord Newton: the factor of an earlier tangent serves as long as each iteration brings the residual, as the bound
     /// measures it and in itself, below this part of what it was, between 0 and 1; across calls and steps, too, where the
-    /// problem [keeps](super::Problem::kept_factor) its factor. A step with it that raises the residual is taken back.
+    /// problem [keeps](super::Problem::reusable_factor) its factor. A step with it that raises the residual is taken back.
     /// `None` factors in every iteration. The factor of a linear problem serves anyway.
     pub reuse_factor: Option<f64>,
 }

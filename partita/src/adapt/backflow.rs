@@ -2,10 +2,10 @@
 
 use partita_fluid::{Backflow, FluidSolver, Outlet};
 
-use super::field::Suspect;
+use super::suspect::Suspect;
 
 /// Names the groups through which fluid entered at the end of the last step, and what can be done about it.
-pub(super) fn suspect(fluid: &FluidSolver<2>) -> Option<Suspect> {
+pub(crate) fn suspect(fluid: &FluidSolver<2>) -> Option<Suspect> {
     advice(&fluid.backflows())
 }
 

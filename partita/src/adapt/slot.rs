@@ -4,7 +4,9 @@ use std::error::Error;
 
 use partita_coupling::{Block, Effort, NewtonLimit, Participant, ParticipantError, Step};
 
-use super::{Adapter, AdapterState, Field};
+use partita_numerics::field::{Field, StateMismatch};
+
+use super::{Adapter, AdapterState};
 
 /// What a [`Slot`] remembers between steps.
 pub type SlotState<S> = Option<AdapterState<S>>;
@@ -62,7 +64,7 @@ impl<F: Field> Slot<F> {
     /// When the state belongs to another discretization, or to a scene with another set of fields.
     pub fn restore(&mut self, state: &SlotState<F::State>) -> Result<(), Misfit<F::Error>>
     where
-        F::Error: Error,
+        F::Error: Error + From<StateMismatch>,
     {
         match (&mut self.0, state) {
             (Some(adapter), Some(state)) => adapter.restore(state).map_err(Misfit::Field),

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use partita_mesh::vtu::{Field, PvdCollection, save_vtu};
+use partita_mesh::vtu::{Array, PvdCollection, save_vtu};
 use partita_mesh::{CellKind, Cells};
 
 use super::OutputError;
@@ -48,9 +48,9 @@ pub struct Snapshot<'a, const D: usize> {
     /// Cells between them.
     pub cells: &'a Cells,
     /// Values at the points.
-    pub point_data: &'a [Field<'a>],
+    pub point_data: &'a [Array<'a>],
     /// Values in the cells.
-    pub cell_data: &'a [Field<'a>],
+    pub cell_data: &'a [Array<'a>],
 }
 
 /// Both collections; each appears with its first file.

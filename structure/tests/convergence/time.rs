@@ -4,6 +4,7 @@
 //! Steps of changing size: `a_n` is the acceleration of `t_n + (alpha_m - alpha_f) dt`, so that a step of another size
 //! takes it for one of another time. A change costs an error of second order, once; changes at every step add up to one
 //! of first order, except at radius 1 and in Newmark's method, where both alphas are equal.
+use partita_numerics::Field;
 
 use partita_iga::Side;
 use partita_numerics::rates::fitted_order;
@@ -82,7 +83,7 @@ fn vibration_errors(scheme: TimeScheme, steps: usize, sizes: Sizes, rayleigh: Ra
     let mut errors = [0.0_f64; 2];
     for dt in sizes.steps(2.0 / frequencies[0], steps) {
         let time = solver.state().time + dt;
-        solver.advance(time, dt).unwrap();
+        solver.step_alone(time, dt).unwrap();
         let found = [&solver.state().displacement, &solver.state().velocity];
         for (part, exact) in exact(time).iter().enumerate() {
             for (&dof, exact) in free.iter().zip(exact) {
@@ -151,7 +152,7 @@ fn swing(scheme: TimeScheme, steps: usize) -> [f64; 2] {
     };
     let mut solver = solver(beam(1.0, 0.1, 2, 6), model, stepped_by(scheme));
     for dt in Sizes::Equal.steps(1.0, steps) {
-        solver.advance(solver.state().time + dt, dt).unwrap();
+        solver.step_alone(solver.state().time + dt, dt).unwrap();
     }
     let tip = solver.displacement_at(&[1.0, 0.5]);
     assert!(tip[1] < -0.3, "a large deflection: {tip:?}");

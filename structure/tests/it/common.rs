@@ -1,4 +1,5 @@
 //! Patches, models and matrices that several tests need.
+use partita_numerics::Field;
 
 use partita_iga::{Knots, Side, Spline, build};
 use partita_mesh::generate::{SolidRectangle, solid_rectangle};
@@ -95,7 +96,7 @@ pub(crate) fn bent_square(kind: CellKind, n: usize) -> SolidMesh<2> {
 /// The last bit of the displacement of a slender body changes its residual by more than any tight bound (K times the
 /// rounding of d, see `newton_loop`), so that a fixed number of iterations takes the place of a bound.
 pub(crate) fn settle<const D: usize>(solver: &mut StructureSolver<D>) {
-    solver.begin_step(1.0, 1.0);
+    solver.begin_step(1.0, 1.0).expect("a step");
     let settings = *solver.newton_settings();
     let report = newton::solve(solver, &settings, Limit::AtMost(12), |_, _| Verdict::Continue).unwrap();
     assert!(report.exit.relative < 1e-6, "{report:?}");
@@ -190,7 +191,7 @@ pub(crate) fn stiffness_and_mass<const D: usize>(
 ) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
     let tangent = |settings| {
         let mut solver = solver(patch.clone(), model.clone(), settings);
-        solver.begin_step(1.0, 1.0);
+        solver.begin_step(1.0, 1.0).expect("a step");
         solver.assemble(true).unwrap();
         dense_tangent(&solver)
     };

@@ -1,4 +1,5 @@
 //! Deformations that a neo-Hookean solid cannot take.
+use partita_numerics::Field;
 
 use partita_iga::{Side, build};
 use partita_numerics::newton::{self, Failure, Limit, Problem, Verdict};
@@ -23,7 +24,7 @@ fn block(material: Material, weight: f64, line_search: Option<LineSearch>) -> St
 #[test]
 fn a_block_turned_inside_out_is_refused_with_element_place_and_remedy() {
     let mut solver = block(neo_hookean(1.0, 0.3), 0.0, None);
-    solver.begin_step(1.0, 1.0);
+    solver.begin_step(1.0, 1.0).expect("a step");
     // The top row is pushed below the middle one: elements 2 and 3 are turned over.
     let pushed: Vec<f64> = (0..9).flat_map(|a| [0.0, if a >= 6 { -0.7 } else { 0.0 }]).collect();
     solver.guess(&pushed);
@@ -38,18 +39,18 @@ fn a_block_turned_inside_out_is_refused_with_element_place_and_remedy() {
     assert_eq!(solver.strain_energy().to_bits(), f64::INFINITY.to_bits());
     // From the reference configuration everything goes on.
     solver.rewind();
-    assert!(solver.advance(1.0, 1.0).unwrap().converged);
+    assert!(solver.step_alone(1.0, 1.0).unwrap().converged);
 }
 
 #[test]
 fn a_step_that_newton_overshoots_fails_with_its_place_and_succeeds_with_a_line_search() {
-    let failure = block(neo_hookean(1.0, 0.3), 3.0, None).advance(1.0, 1.0).unwrap_err();
+    let failure = block(neo_hookean(1.0, 0.3), 3.0, None).step_alone(1.0, 1.0).unwrap_err();
     let Failure::Problem { source: error, .. } = &failure else { panic!("{failure}") };
     assert!(matches!(error, StructureError::DeformedTooFar { .. }), "{error}");
 
     let search = Some(LineSearch { tolerance: 0.8, max_evaluations: 30 });
     let mut solver = block(neo_hookean(1.0, 0.3), 3.0, search);
-    solver.begin_step(1.0, 1.0);
+    solver.begin_step(1.0, 1.0).expect("a step");
     let settings = newton::Settings { max_iterations: 60, ..*solver.newton_settings() };
     let report = newton::solve(&mut solver, &settings, Limit::ToConvergence, |_, _| Verdict::Continue);
     assert!(report.unwrap().converged);
@@ -62,7 +63,7 @@ fn a_step_that_newton_overshoots_fails_with_its_place_and_succeeds_with_a_line_s
 fn the_neo_hookean_block_agrees_with_the_other_law_under_a_small_weight() {
     let settled = |material| {
         let mut solver = block(material, 1e-4, None);
-        solver.advance(1.0, 1.0).unwrap();
+        solver.step_alone(1.0, 1.0).unwrap();
         solver.displacement_at(&[0.5, 1.0])[1]
     };
     let ratio = settled(neo_hookean(1.0, 0.3)) / settled(svk(1.0, 0.3));

@@ -1,4 +1,5 @@
 //! The first mode, by inverse iteration, against all modes of a dense solver.
+use partita_numerics::Field;
 
 use partita_iga::Side;
 use partita_structure::{StructureModel, TimeScheme};
@@ -38,7 +39,7 @@ fn the_resistance_is_that_of_the_tangent() {
         let mut beam = solver(beam(1.0, 0.2, 2, 4), model.clone(), stepped_by(scheme));
         let mode = beam.first_mode().expect("it is held");
         let (resistance, _) = beam.resistance(&mode, dt);
-        beam.begin_step(dt, dt);
+        beam.begin_step(dt, dt).expect("a step");
         partita_numerics::newton::Problem::assemble(&mut beam, true).expect("it can be assembled");
         let (pattern, values) = beam.tangent();
         let phi: Vec<f64> = beam.parts()[0].dofs.iter().map(|&dof| mode.shape[dof]).collect();

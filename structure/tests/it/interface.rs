@@ -1,4 +1,5 @@
 //! The interface: which points it has, what goes in, what comes out.
+use partita_numerics::Field;
 
 use partita_iga::{Side, build};
 use partita_numerics::newton::{self, Limit, Problem, Verdict};
@@ -51,8 +52,8 @@ fn one_force_reaches_its_own_point_and_component() {
         for component in 0..2 {
             let mut load = vec![0.0; points.len() * 2];
             load[place * 2 + component] = 3.0;
-            solver.begin_step(1.0, 1.0);
-            solver.impose(&load);
+            solver.begin_step(1.0, 1.0).expect("a step");
+            solver.impose(&load).expect("a step");
             let force = &solver.trial().external_force;
             for (dof, &f) in force.iter().enumerate() {
                 assert_eq!(f, if dof == point * 2 + component { 3.0 } else { 0.0 });
@@ -64,10 +65,10 @@ fn one_force_reaches_its_own_point_and_component() {
 #[test]
 fn output_holds_the_displacements_of_the_points_in_order() {
     let mut solver = with_sides(&[Side::LEFT], &[Side::TOP, Side::RIGHT]);
-    solver.begin_step(1.0, 1.0);
+    solver.begin_step(1.0, 1.0).expect("a step");
     let points = solver.interface_points().to_vec();
     let load: Vec<f64> = noise(points.len() * 2, 1.0).iter().map(|x| 0.1 * x).collect();
-    solver.impose(&load);
+    solver.impose(&load).expect("a step");
     converge(&mut solver);
     let mut output = vec![0.0; load.len()];
     solver.output(&mut output);
@@ -82,9 +83,9 @@ fn output_holds_the_displacements_of_the_points_in_order() {
 #[test]
 fn forces_at_the_interface_are_held_by_the_support() {
     let mut solver = with_sides(&[Side::LEFT], &[Side::TOP]);
-    solver.begin_step(1.0, 1.0);
+    solver.begin_step(1.0, 1.0).expect("a step");
     let load: Vec<f64> = noise(6, 2.0).iter().map(|x| 0.05 * x).collect();
-    solver.impose(&load);
+    solver.impose(&load).expect("a step");
     converge(&mut solver);
     let reaction = solver.reaction(Side::LEFT).unwrap();
     for i in 0..2 {
@@ -106,11 +107,11 @@ fn an_interface_load_is_averaged_over_the_step_like_every_other() {
 
         // From rest nothing but the load is in the residual of the first assembly.
         let averaged = |solver: &mut StructureSolver<2>, load: f64| {
-            solver.impose(&vec![load; right.len() * 2]);
+            solver.impose(&vec![load; right.len() * 2]).expect("a step");
             solver.assemble(false).unwrap();
             -solver.residual()[right[0] * 2]
         };
-        solver.begin_step(0.1, 0.1);
+        solver.begin_step(0.1, 0.1).expect("a step");
         assert!((averaged(&mut solver, 2.0) - (1.0 - alpha_f) * 2.0).abs() < 1e-15);
         // The second step averages with the load that the first one ended with.
         let mut state = solver.trial().clone();
@@ -118,7 +119,7 @@ fn an_interface_load_is_averaged_over_the_step_like_every_other() {
         state.velocity.fill(0.0);
         state.acceleration.fill(0.0);
         solver.restore(&state).unwrap();
-        solver.begin_step(0.2, 0.1);
+        solver.begin_step(0.2, 0.1).expect("a step");
         assert!((averaged(&mut solver, 6.0) - ((1.0 - alpha_f) * 6.0 + alpha_f * 2.0)).abs() < 1e-15);
     }
 }
@@ -126,12 +127,12 @@ fn an_interface_load_is_averaged_over_the_step_like_every_other() {
 #[test]
 fn a_step_begins_under_the_committed_interface_force() {
     let mut solver = with_sides(&[Side::LEFT], &[Side::TOP]);
-    solver.begin_step(1.0, 1.0);
+    solver.begin_step(1.0, 1.0).expect("a step");
     let load = [0.01, 0.02, 0.03, 0.04, 0.05, 0.06];
-    solver.impose(&load);
+    solver.impose(&load).expect("a step");
     converge(&mut solver);
     solver.commit();
-    solver.begin_step(2.0, 1.0);
+    solver.begin_step(2.0, 1.0).expect("a step");
     assert_eq!(solver.trial().interface_force, load);
     assert!(solver.assemble(false).unwrap().relative < 1e-9, "still in equilibrium");
 }
@@ -139,5 +140,5 @@ fn a_step_begins_under_the_committed_interface_force() {
 #[test]
 #[should_panic(expected = "the interface force has the wrong length")]
 fn a_force_of_the_wrong_length_is_refused() {
-    with_sides(&[Side::LEFT], &[Side::TOP]).impose(&[0.0; 5]);
+    with_sides(&[Side::LEFT], &[Side::TOP]).impose(&[0.0; 5]).expect("a step");
 }

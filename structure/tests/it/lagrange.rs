@@ -1,4 +1,5 @@
 //! Structures on meshes of triangles and quadrilaterals: the same identities as on a patch.
+use partita_numerics::Field;
 
 use nalgebra::{DMatrix, SymmetricEigen};
 use partita_iga::Side;
@@ -37,7 +38,7 @@ fn uniform_strain_leaves_no_force_inside_a_bent_mesh() {
         let mesh = bent_square(kind, 3);
         for material in materials() {
             let mut solver = on_mesh(mesh.clone(), bare(material), quasi_static());
-            solver.begin_step(1.0, 1.0);
+            solver.begin_step(1.0, 1.0).expect("a step");
             solver.guess(&affine(&mesh, GRADIENT));
             solver.assemble(false).unwrap();
             let forces = solver.residual().as_chunks::<2>().0;
@@ -92,8 +93,8 @@ fn a_clamped_mesh_under_the_tractions_of_a_uniform_stress_takes_its_uniform_stra
             let traction = traction_of_uniform_stress(&mesh, &free, stress);
             let traction = traction.as_chunks::<2>().0;
             let load: Vec<f64> = solver.interface_points().iter().flat_map(|&node| traction[node]).collect();
-            solver.begin_step(1.0, 1.0);
-            solver.impose(&load);
+            solver.begin_step(1.0, 1.0).expect("a step");
+            solver.impose(&load).expect("a step");
             converge(&mut solver);
             let exact = affine(&mesh, gradient);
             let error: Vec<f64> = solver.values().iter().zip(&exact).map(|(d, exact)| d - exact).collect();
@@ -114,7 +115,7 @@ fn a_clamped_mesh_under_the_tractions_of_a_uniform_stress_takes_its_uniform_stra
 fn a_free_mesh_has_three_rigid_modes_and_no_others() {
     for kind in KINDS {
         let mut solver = on_mesh(bent_square(kind, 2), bare(svk(1.0, 0.3)), quasi_static());
-        solver.begin_step(1.0, 1.0);
+        solver.begin_step(1.0, 1.0).expect("a step");
         solver.assemble(true).unwrap();
         let rows = dense_tangent(&solver);
         let stiffness = DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j]);
@@ -132,7 +133,7 @@ fn a_turned_mesh_feels_no_force() {
         for material in [svk(1.0, 0.3), neo_hookean(1.0, 0.3)] {
             let mesh = bent_square(kind, 2);
             let mut solver = on_mesh(mesh.clone(), bare(material), quasi_static());
-            solver.begin_step(1.0, 1.0);
+            solver.begin_step(1.0, 1.0).expect("a step");
             solver.guess(&affine(&mesh, [[cos - 1.0, -sin], [sin, cos - 1.0]]));
             solver.assemble(false).unwrap();
             assert!(largest(solver.residual()) < 1e-14, "{kind:?}");
@@ -147,7 +148,7 @@ fn tangent_is_derivative_of_residual_and_symmetric_on_every_kind_of_cells() {
         let model = StructureModel { density: 2.5, clamped: "left".into(), ..bare(material) };
         let settings = StructureSettings { rayleigh, ..dynamic(0.3) };
         let mut solver = on_mesh(bent_square(kind, 2), model, settings);
-        solver.begin_step(0.2, 0.2);
+        solver.begin_step(0.2, 0.2).expect("a step");
         let at: Vec<f64> = noise(solver.values().len(), 1.0).iter().map(|x| 0.03 * x).collect();
         solver.guess(&at);
         solver.assemble(true).unwrap();
@@ -241,8 +242,8 @@ fn transfer_conserves_force_and_work_between_points_and_interface() {
             assert!((given - taken).abs() < 1e-13, "{kind:?}: {given} and {taken}");
         }
 
-        solver.begin_step(1.0, 1.0);
-        solver.impose(load.as_flattened());
+        solver.begin_step(1.0, 1.0).expect("a step");
+        solver.impose(load.as_flattened()).expect("a step");
         converge(&mut solver);
         let mut output = vec![0.0; 2 * columns.len()];
         solver.output(&mut output);
@@ -284,7 +285,7 @@ fn values_at_points_are_interpolated_and_those_at_nodes_are_the_nodes_own() {
     for kind in KINDS {
         let mesh = bent_square(kind, 2);
         let mut solver = on_mesh(mesh.clone(), bare(svk(1.0, 0.3)), quasi_static());
-        solver.begin_step(1.0, 1.0);
+        solver.begin_step(1.0, 1.0).expect("a step");
         solver.guess(&affine(&mesh, GRADIENT));
         for (point, value) in mesh.points().iter().zip(solver.values().as_chunks::<2>().0) {
             assert_eq!(solver.displacement_at(point), *value);

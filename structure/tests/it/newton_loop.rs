@@ -1,4 +1,5 @@
 //! Newton's method on the structure: its order, its start, its end.
+use partita_numerics::Field;
 
 use partita_iga::Side;
 use partita_numerics::newton::{self, Bound, Failure, Limit, Problem, Verdict};
@@ -37,7 +38,7 @@ fn residuals(solver: &mut StructureSolver<2>) -> Vec<f64> {
 #[test]
 fn newton_converges_quadratically_under_a_large_deflection() {
     let mut solver = cantilever(0.8, quasi_static());
-    solver.begin_step(1.0, 1.0);
+    solver.begin_step(1.0, 1.0).expect("a step");
     let sequence = residuals(&mut solver);
     println!("relative residuals under a large deflection: {sequence:?}");
     let [_, deflection] = solver.displacement_at(&[1.0, 0.5]);
@@ -56,7 +57,7 @@ fn a_slender_body_stands_still_where_the_last_bit_of_its_displacement_moves_the_
     model.clamped = [Side::LEFT, Side::RIGHT].into();
     model.body_force = BodyForce::Constant([0.0, -3.5]);
     let mut solver = solver(beam(1.0, 0.01, 2, 60), model, quasi_static());
-    solver.begin_step(1.0, 1.0);
+    solver.begin_step(1.0, 1.0).expect("a step");
     let settings = newton::Settings { bound: Bound::Relative(1e-30), ..*solver.newton_settings() };
     let report = newton::solve(&mut solver, &settings, Limit::AtMost(15), |_, _| Verdict::Continue).unwrap();
     let floor = report.exit.relative;
@@ -80,7 +81,7 @@ fn a_linear_structure_takes_one_iteration() {
         model.clamped = [Side::LEFT].into();
         model.body_force = BodyForce::Constant([10.0, -10.0]);
         let mut solver = solver(beam(1.0, 0.1, 2, 10), model, settings);
-        assert_eq!(solver.advance(0.1, 0.1).unwrap().iterations, 1);
+        assert_eq!(solver.step_alone(0.1, 0.1).unwrap().iterations, 1);
     }
 }
 
@@ -94,7 +95,7 @@ fn a_linear_structure_is_factored_once_for_all_steps_of_one_size() {
     let mut time = 0.0;
     let mut step = |dt: f64| {
         time += dt;
-        let report = solver.advance(time, dt).unwrap();
+        let report = solver.step_alone(time, dt).unwrap();
         assert_eq!((report.solves, report.assemblies, report.tangents), (1, 2, report.factorizations));
         report.factorizations
     };
@@ -106,7 +107,7 @@ fn a_chord_finds_the_large_deflection_with_fewer_factors() {
     let newton = |reuse_factor| newton::Settings { reuse_factor, ..newton::Settings::default() };
     let [whole, chord] = [None, Some(0.5)].map(|reuse_factor| {
         let mut solver = cantilever(0.3, StructureSettings { newton: newton(reuse_factor), ..dynamic(0.5) });
-        let reports: Vec<_> = (1..=5).map(|n| solver.advance(0.1 * f64::from(n), 0.1).unwrap()).collect();
+        let reports: Vec<_> = (1..=5).map(|n| solver.step_alone(0.1 * f64::from(n), 0.1).unwrap()).collect();
         let count = |of: fn(&newton::Report) -> usize| reports.iter().map(of).sum::<usize>();
         let counts = [count(|report| report.factorizations), count(|report| report.iterations)];
         (counts, solver.displacement_at(&[1.0, 0.5])[1])
@@ -119,7 +120,7 @@ fn a_chord_finds_the_large_deflection_with_fewer_factors() {
 fn a_call_that_enters_converged_costs_nothing() {
     for settings in [quasi_static(), dynamic(0.5)] {
         let mut solver = cantilever(0.1, settings);
-        solver.begin_step(0.1, 0.1);
+        solver.begin_step(0.1, 0.1).expect("a step");
         let sequence = residuals(&mut solver);
         assert!(sequence.len() > 2, "{sequence:?}");
         let values = solver.values().to_vec();
@@ -135,17 +136,17 @@ fn a_call_that_enters_converged_costs_nothing() {
 #[test]
 fn a_call_continues_from_the_latest_iterate_under_new_loads() {
     let mut whole = cantilever(0.3, dynamic(0.5));
-    whole.begin_step(0.1, 0.1);
+    whole.begin_step(0.1, 0.1).expect("a step");
     let load = vec![0.01; whole.interface_points().len() * 2];
-    whole.impose(&load);
+    whole.impose(&load).expect("a step");
     residuals(&mut whole);
 
     let mut split = cantilever(0.3, dynamic(0.5));
-    split.begin_step(0.1, 0.1);
+    split.begin_step(0.1, 0.1).expect("a step");
     let settings = *split.newton_settings();
     for factor in [0.2, 1.4, 1.0] {
         let part: Vec<f64> = load.iter().map(|f| factor * f).collect();
-        split.impose(&part);
+        split.impose(&part).expect("a step");
         newton::solve(&mut split, &settings, Limit::AtMost(1), |_, _| Verdict::Continue).unwrap();
     }
     newton::solve(&mut split, &settings, Limit::ToConvergence, |_, _| Verdict::Continue).unwrap();
@@ -161,8 +162,8 @@ fn nothing_moves_from_an_exactly_zero_state_without_loads() {
         model.clamped = [Side::LEFT].into();
         model.wetted = [Side::TOP].into();
         let mut solver = solver(beam(1.0, 0.1, 2, 4), model, settings);
-        solver.begin_step(0.1, 0.1);
-        solver.impose(&vec![0.0; solver.interface_points().len() * 2]);
+        solver.begin_step(0.1, 0.1).expect("a step");
+        solver.impose(&vec![0.0; solver.interface_points().len() * 2]).expect("a step");
         let report =
             newton::solve(&mut solver, &settings.newton, Limit::ToConvergence, |_, _| Verdict::Continue)
                 .unwrap();
@@ -174,7 +175,7 @@ fn nothing_moves_from_an_exactly_zero_state_without_loads() {
 #[test]
 fn the_residual_is_measured_against_the_largest_of_its_terms() {
     let mut solver = cantilever(0.1, quasi_static());
-    solver.begin_step(1.0, 1.0);
+    solver.begin_step(1.0, 1.0).expect("a step");
     let entry = solver.assemble(true).unwrap();
     // At rest the load is the only term, so that the residual is all of it.
     assert_eq!(entry.relative, 1.0);
@@ -193,7 +194,7 @@ fn strong_pull(line_search: Option<LineSearch>) -> (usize, StructureSolver<2>) {
     };
     let settings = StructureSettings { line_search, ..quasi_static() };
     let mut solver = solver(beam(1.0, 0.1, 2, 6), model, settings);
-    solver.begin_step(1.0, 1.0);
+    solver.begin_step(1.0, 1.0).expect("a step");
     let sequence = residuals(&mut solver);
     println!("strong pull, {line_search:?}: {sequence:?}");
     (sequence.len() - 1, solver)
@@ -219,7 +220,7 @@ fn line_search_leaves_good_steps_alone() {
 }
 
 fn begun(mut solver: StructureSolver<2>) -> StructureSolver<2> {
-    solver.begin_step(0.01, 0.01);
+    solver.begin_step(0.01, 0.01).expect("a step");
     solver
 }
 
@@ -240,10 +241,10 @@ fn column(times_buckling: f64) -> StructureSolver<2> {
 #[test]
 fn tangents_past_the_buckling_load_are_solved_and_counted() {
     let mut below = column(0.9);
-    below.advance(1.0, 1.0).unwrap();
+    below.step_alone(1.0, 1.0).unwrap();
     assert_eq!(below.indefinite_tangents(), 0);
     let mut above = column(1.1);
-    let report = above.advance(1.0, 1.0).unwrap();
+    let report = above.step_alone(1.0, 1.0).unwrap();
     assert!(report.converged && above.indefinite_tangents() > 0);
     // The straight column is an equilibrium all the same.
     let [shortening, bending] = above.displacement_at(&[1.0, 0.5]);
@@ -255,7 +256,7 @@ fn a_body_without_supports_cannot_rest() {
     let mut model = bare(svk(1.0, 0.3));
     model.body_force = BodyForce::Constant([0.0, -1.0]);
     let mut solver = solver(beam(1.0, 0.2, 2, 4), model, quasi_static());
-    let failure = solver.advance(1.0, 1.0).unwrap_err();
+    let failure = solver.step_alone(1.0, 1.0).unwrap_err();
     assert!(matches!(failure, Failure::Problem { iteration: 1, .. }), "{failure:?}");
     assert!(solver.values().iter().all(|d| *d == 0.0), "the step is given up");
 }
@@ -264,10 +265,10 @@ fn a_body_without_supports_cannot_rest() {
 fn phases_account_for_the_time_of_a_call() {
     let mut solver = cantilever(0.3, quasi_static());
     assert_eq!(solver.phases().total(), 0.0);
-    solver.advance(1.0, 1.0).unwrap();
+    solver.step_alone(1.0, 1.0).unwrap();
     let first = solver.phases();
     assert!(first.assembly > 0.0 && first.factorization > 0.0 && first.solve > 0.0 && first.motion == 0.0);
-    solver.advance(2.0, 1.0).unwrap();
+    solver.step_alone(2.0, 1.0).unwrap();
     assert!(solver.phases().assembly > first.assembly);
 }
 
@@ -278,10 +279,10 @@ fn a_step_allocates_nothing() {
         let mut solver = cantilever(0.3, settings);
         let load = vec![0.01; solver.interface_points().len() * 2];
         // The first factorization sizes the packing buffer of this thread's matrix kernels.
-        solver.advance(0.1, 0.1).unwrap();
+        solver.step_alone(0.1, 0.1).unwrap();
         let counted = allocation_counter::measure(|| {
-            solver.begin_step(0.2, 0.1);
-            solver.impose(&load);
+            solver.begin_step(0.2, 0.1).expect("a step");
+            solver.impose(&load).expect("a step");
             let report =
                 newton::solve(&mut solver, &settings.newton, Limit::ToConvergence, |_, _| Verdict::Continue)
                     .unwrap();
@@ -300,39 +301,40 @@ fn a_body_turned_inside_out_is_an_equilibrium_of_the_law_and_no_solution() {
         let patch = beam(1.0, 0.2, 2, 4);
         let guess: Vec<f64> = patch.control_points().iter().flat_map(|x| [-2.0 * x[0], 0.0]).collect();
         let mut solver = solver(patch, model, quasi_static());
-        solver.begin_step(1.0, 1.0);
-        assert!(solver.check_orientation().is_ok(), "the reference configuration is whole");
+        solver.begin_step(1.0, 1.0).expect("a step");
+        assert!(solver.verify().is_ok(), "the reference configuration is whole");
         solver.guess(&guess);
         solver
     };
     let mut inside_out = mirrored(svk(1.0, 0.3));
     // F = diag(-1, 1) leaves F^T F = I: no strain, no stress.
     assert!(inside_out.assemble(false).unwrap().absolute < 1e-14);
-    let refusal = inside_out.check_orientation().unwrap_err();
+    let refusal = inside_out.verify().unwrap_err();
     let StructureError::Folded { determinant, .. } = refusal else { panic!("{refusal}") };
     assert!((determinant + 1.0).abs() < 1e-12, "{determinant}");
     let message = refusal.to_string();
     assert!(message.contains(" m is turned inside out: det F = -1.000e0\nhint: "), "{message}");
-    assert!(mirrored(linear(1.0, 0.3)).check_orientation().is_ok(), "small strains know no orientation");
+    assert!(mirrored(linear(1.0, 0.3)).verify().is_ok(), "small strains know no orientation");
 }
 
 #[test]
 fn the_worst_equation_is_that_of_the_largest_free_residual() {
     let mut solver = cantilever(0.3, quasi_static());
-    solver.begin_step(1.0, 1.0);
+    solver.begin_step(1.0, 1.0).expect("a step");
     let mut pushed = solver.values().to_vec();
     let (point, component) = (solver.interface_points()[7], 1);
     pushed[2 * point + component] += 0.01;
     solver.guess(&pushed);
     solver.assemble(false).unwrap();
-    let worst = solver.worst_equation().expect("an equation");
+    let worst = solver.largest_residual().expect("an equation");
     let free = &solver.parts()[0].dofs;
     assert!(free.iter().all(|&dof| solver.residual()[dof].abs() <= worst.residual.abs()));
-    assert!((solver.residual()[2 * worst.point + worst.component] - worst.residual).abs() < f64::EPSILON);
-    assert_eq!(worst.place, solver.spline().control_points()[worst.point]);
+    let component = usize::from(worst.equation == "force in y");
+    assert!((solver.residual()[2 * worst.node + component] - worst.residual).abs() < f64::EPSILON);
+    assert_eq!(worst.place.0, solver.spline().control_points()[worst.node]);
     // A residual that is no number is worse than any number.
     pushed[2 * point] = f64::NAN;
     solver.guess(&pushed);
     solver.assemble(false).unwrap();
-    assert!(solver.worst_equation().expect("an equation").residual.is_nan());
+    assert!(solver.largest_residual().expect("an equation").residual.is_nan());
 }

@@ -4,6 +4,7 @@
 //! as the integrals of the gradients do. With equal weights degree + 1 Gauss points integrate these exactly and the
 //! patch test holds to round-off. With unequal weights the integrands are rational: the defect is that of the
 //! quadrature, and vanishes under refinement much faster than the error of any solution.
+use partita_numerics::Field;
 
 use partita_iga::{Side, Spline};
 use partita_numerics::newton::{self, Limit, Problem, Verdict};
@@ -23,7 +24,7 @@ const SPACE: [[f64; 3]; 3] = [[0.3, -0.4, 0.1], [0.5, -0.1, 0.2], [0.0, -0.3, 0.
 /// affine in the place.
 fn inner_force<const D: usize>(patch: &Spline<D>, material: Material, gradient: [[f64; D]; D]) -> f64 {
     let mut solver = solver(patch.clone(), bare(material), quasi_static());
-    solver.begin_step(1.0, 1.0);
+    solver.begin_step(1.0, 1.0).expect("a step");
     solver.guess(&at_control_points(patch, |x| {
         std::array::from_fn(|i| 0.1 + (0..D).map(|j| gradient[i][j] * x[j]).sum::<f64>())
     }));
@@ -81,8 +82,8 @@ fn a_clamped_patch_under_the_tractions_of_a_uniform_stress_takes_its_uniform_str
         let traction = traction.as_chunks::<2>().0;
         let load: Vec<f64> = solver.interface_points().iter().flat_map(|&point| traction[point]).collect();
 
-        solver.begin_step(1.0, 1.0);
-        solver.impose(&load);
+        solver.begin_step(1.0, 1.0).expect("a step");
+        solver.impose(&load).expect("a step");
         let settings = *solver.newton_settings();
         newton::solve(&mut solver, &settings, Limit::ToConvergence, |_, _| Verdict::Continue).unwrap();
 

@@ -1,4 +1,6 @@
 //! Saving, giving up and repeating steps, to the bit.
+use partita_numerics::Field;
+use partita_numerics::field::StateMismatch;
 
 use partita_iga::Side;
 use partita_structure::{
@@ -20,9 +22,9 @@ fn shaken(settings: StructureSettings) -> StructureSolver<2> {
 fn step(solver: &mut StructureSolver<2>, number: usize) {
     use partita_numerics::newton::{self, Limit, Verdict};
     let dt = [0.02, 0.01, 0.03][number % 3];
-    solver.begin_step(solver.state().time + dt, dt);
+    solver.begin_step(solver.state().time + dt, dt).expect("a step");
     let load = vec![0.02 * (number as f64).sin(); solver.interface_points().len() * 2];
-    solver.impose(&load);
+    solver.impose(&load).expect("a step");
     let settings = *solver.newton_settings();
     newton::solve(solver, &settings, Limit::ToConvergence, |_, _| Verdict::Continue).unwrap();
     solver.commit();
@@ -68,8 +70,8 @@ fn a_step_given_up_and_done_again_has_the_same_bits() {
 
     // The same step after another one of half the size was tried and given up.
     solver.restore(&before).unwrap();
-    solver.begin_step(before.time + 0.005, 0.005);
-    solver.impose(&vec![1.0; solver.interface_points().len() * 2]);
+    solver.begin_step(before.time + 0.005, 0.005).expect("a step");
+    solver.impose(&vec![1.0; solver.interface_points().len() * 2]).expect("a step");
     let newton = *solver.newton_settings();
     partita_numerics::newton::solve(
         &mut solver,
@@ -89,13 +91,13 @@ fn a_step_begun_again_starts_from_the_committed_state() {
     let mut solver = shaken(dynamic(0.5));
     (0..2).for_each(|number| step(&mut solver, number));
     let begun = |solver: &mut StructureSolver<2>| {
-        solver.begin_step(0.1, 0.07);
+        solver.begin_step(0.1, 0.07).expect("a step");
         bits(solver.trial())
     };
     let once = begun(&mut solver);
     let elsewhere = vec![0.01; solver.values().len()];
     solver.guess(&elsewhere);
-    solver.impose(&vec![1.0; solver.interface_points().len() * 2]);
+    solver.impose(&vec![1.0; solver.interface_points().len() * 2]).expect("a step");
     assert_ne!(bits(solver.trial()), once);
     assert_eq!(begun(&mut solver), once);
     assert_eq!(solver.values(), solver.state().displacement);
@@ -114,7 +116,7 @@ fn a_run_repeats_itself_to_the_bit() {
 #[test]
 fn commit_makes_the_trial_state_the_committed_one() {
     let mut solver = shaken(dynamic(0.5));
-    solver.begin_step(0.02, 0.02);
+    solver.begin_step(0.02, 0.02).expect("a step");
     assert_eq!(solver.state().time, 0.0);
     solver.commit();
     assert_eq!(solver.state(), solver.trial());
@@ -127,5 +129,11 @@ fn a_state_of_another_structure_is_refused() {
     let mut state = solver.state().clone();
     state.velocity.pop();
     let error = solver.restore(&state).unwrap_err();
-    assert!(matches!(error, StructureError::StateOfAnotherStructure { quantity: "velocity", .. }), "{error}");
+    assert!(
+        matches!(
+            error,
+            StructureError::StateOfAnotherStructure(StateMismatch { what: "values of the velocity", .. })
+        ),
+        "{error}"
+    );
 }

@@ -1,4 +1,5 @@
 //! What round-off leaves of a residual is known before the loop stands still there.
+use partita_numerics::Field;
 
 use partita_iga::{Side, build};
 use partita_mesh::CellKind;
@@ -55,7 +56,7 @@ impl Strip {
 /// Residuals of the last iterations of a long loop, the smallest and the largest, in units of their round-off, and this
 /// relative to the largest term.
 fn floor(solver: &mut StructureSolver<2>, dt: f64) -> [f64; 3] {
-    solver.begin_step(dt, dt);
+    solver.begin_step(dt, dt).expect("a step");
     let settings = newton::Settings { divergence_factor: 1e30, ..*solver.newton_settings() };
     let mut levels: Vec<[f64; 2]> = Vec::new();
     // The loop ends at round-off; what follows shows whether it ends too early.
@@ -146,7 +147,7 @@ fn round_off_of_inertia_and_damping_is_estimated() {
             let strip = Strip { settings, ..Strip::new(svk(1e7, 0.3), 0.01, 1e-3) };
             let mut solver = strip.patch([2, 2], [16, 1]);
             for step in 1..=3 {
-                solver.advance(f64::from(step) * dt, dt).unwrap();
+                solver.step_alone(f64::from(step) * dt, dt).unwrap();
             }
             let [least, most, relative] = floor(&mut solver, 4.0 * dt);
             println!("dt = {dt}: {least:.3} to {most:.3}, {relative:.1e}");
@@ -159,7 +160,7 @@ fn round_off_of_inertia_and_damping_is_estimated() {
 fn a_wall_of_two_thousandths_converges_where_its_round_off_lies_above_the_bound() {
     let strip = Strip::new(svk(250.0, 0.0), 2e-3, 1e-4);
     let mut solver = strip.patch([3, 2], [16, 1]);
-    let report = solver.advance(1.0, 1.0).unwrap();
+    let report = solver.step_alone(1.0, 1.0).unwrap();
     println!("{report:?}");
     assert!(report.at_round_off && report.exit.relative > 1e-10, "{report:?}");
 }
@@ -169,6 +170,6 @@ fn a_tangent_that_leads_nowhere_is_no_round_off() {
     // Beyond its buckling load a strip has no straight equilibrium that Newton's method would find within few iterations.
     let mut strip = Strip::new(svk(1e7, 0.3), 0.02, 1e-3);
     strip.settings.newton.max_iterations = 2;
-    let failure = strip.patch([2, 2], [16, 1]).advance(1.0, 1.0).unwrap_err();
+    let failure = strip.patch([2, 2], [16, 1]).step_alone(1.0, 1.0).unwrap_err();
     assert!(matches!(failure, newton::Failure::TooManyIterations { .. }), "{failure}");
 }

@@ -1,4 +1,5 @@
 //! The tangent against finite differences of the residual.
+use partita_numerics::Field;
 
 use partita_iga::{Side, Spline};
 use partita_numerics::newton::Problem;
@@ -39,7 +40,7 @@ fn in_motion<const D: usize>(
         }
     }
     solver.restore(&state).unwrap();
-    solver.begin_step(0.2, 0.2);
+    solver.begin_step(0.2, 0.2).expect("a step");
     let guess: Vec<f64> = noise(dofs, 4.0).into_iter().map(|x| 0.08 * x).collect();
     solver.guess(&guess);
     solver

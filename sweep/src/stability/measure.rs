@@ -1,4 +1,5 @@
 //! What is measured in a cell beside its iterations.
+use partita_numerics::Field;
 
 use partita_fluid::FluidSolver;
 use partita_mesh::Mesh;

@@ -1,4 +1,5 @@
 //! One setting, run and timed.
+use partita_numerics::Field;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// What the last factor of a problem is worth at its current iterate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum KeptFactor {
+pub enum ReusableFactor {
     /// There is none, or it belongs to other equations, those of another step size, say.
     Missing,
     /// It belongs to the tangent of an earlier iterate, or of earlier data, and is an approximation here.
@@ -18,7 +18,7 @@ pub type Coefficients = [f64; 3];
 
 /// A tangent whose factor is kept, as a checkpoint holds it: a factor of the same values has the same bits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct KeptTangent {
+pub struct ReusableTangent {
     /// What it was assembled with.
     pub coefficients: Coefficients,
     /// Its values on the pattern of the field.
@@ -53,19 +53,19 @@ impl FactorLog {
 
     /// What the factor is worth to a problem with these coefficients that is linear, or is not.
     #[must_use]
-    pub fn worth(&self, coefficients: &Coefficients, is_linear: bool) -> KeptFactor {
+    pub fn worth(&self, coefficients: &Coefficients, is_linear: bool) -> ReusableFactor {
         let bits = |coefficients: &Coefficients| coefficients.map(f64::to_bits);
         match &self.coefficients {
-            Some(then) if bits(then) != bits(coefficients) => KeptFactor::Missing,
-            Some(_) if is_linear && self.is_current => KeptFactor::Exact,
-            Some(_) => KeptFactor::Earlier,
-            None => KeptFactor::Missing,
+            Some(then) if bits(then) != bits(coefficients) => ReusableFactor::Missing,
+            Some(_) if is_linear && self.is_current => ReusableFactor::Exact,
+            Some(_) => ReusableFactor::Earlier,
+            None => ReusableFactor::Missing,
         }
     }
 
     /// The tangent with these values, where its factor is there.
     #[must_use]
-    pub fn tangent(&self, values: &[f64]) -> Option<KeptTangent> {
-        self.coefficients.map(|coefficients| KeptTangent { coefficients, values: values.to_vec() })
+    pub fn tangent(&self, values: &[f64]) -> Option<ReusableTangent> {
+        self.coefficients.map(|coefficients| ReusableTangent { coefficients, values: values.to_vec() })
     }
 }

@@ -3,13 +3,11 @@
 use partita_mesh::motion::MotionSettings;
 use partita_numerics::newton;
 use partita_numerics::time::BdfOrder;
-use serde::{Deserialize, Serialize};
 
 use crate::stabilization::INVERSE_CONSTANT;
 
 /// Steady, or how time derivatives are taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TimeScheme {
     /// No time derivative and no `4/dt^2` in `tau_M`; the mesh velocity is zero.
     Steady,
@@ -18,8 +16,7 @@ pub enum TimeScheme {
 }
 
 /// Which derivative of the residual Newton's method uses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Tangent {
     /// The derivative of the residual, d tau/du included: quadratic convergence.
     #[default]
@@ -32,7 +29,7 @@ pub enum Tangent {
 }
 
 /// Fixes the constant that a fluid with prescribed velocity all round leaves free in its pressure.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PressurePin {
     /// The node whose pressure is prescribed.
     pub node: usize,
@@ -41,8 +38,7 @@ pub struct PressurePin {
 }
 
 /// Settings of a fluid solver; immutable once it is built.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct FluidSettings {
     /// Steady or unsteady.
     pub time: TimeScheme,

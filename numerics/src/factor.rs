@@ -12,14 +12,12 @@ pub use error::FactorError;
 use cholesky::Cholesky;
 use lu::Lu;
 use node_block::NodeBlockLu;
-use serde::{Deserialize, Serialize};
 use trial::Trial;
 
 use crate::Pattern;
 
 /// Which factorization a matrix gets.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
     /// P A Q = L U with partial pivoting, for any matrix.
     Lu,

@@ -3,8 +3,6 @@
 use std::ops::{Add, AddAssign, Sub};
 use std::time::Instant;
 
-use serde::{Deserialize, Serialize};
-
 /// Wall-clock time a field has spent in each phase since it was built (s).
 ///
 /// The cost of one call is the difference of two snapshots.
@@ -18,7 +16,7 @@ use serde::{Deserialize, Serialize};
 /// assert_eq!(sum, 45.0);
 /// assert_eq!((phases - before).total(), phases.assembly);
 /// ```
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct PhaseSeconds {
     /// Element residuals and tangents.
     pub assembly: f64,

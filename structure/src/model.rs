@@ -1,7 +1,6 @@
 //! What a structure is made of, and how it is solved.
 
 use partita_numerics::newton;
-use serde::{Deserialize, Serialize};
 
 use crate::boundary::Boundary;
 use crate::error::StructureError;
@@ -40,8 +39,7 @@ impl<const D: usize> StructureModel<D> {
 }
 
 /// How a structure is solved.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StructureSettings {
     /// Time integration.
     pub time: TimeScheme,
@@ -73,8 +71,7 @@ impl StructureSettings {
 /// Rayleigh damping: `C = mass M + stiffness K_0` with the stiffness `K_0` of the reference configuration.
 ///
 /// A mode of circular frequency omega gets the damping ratio (mass/omega + stiffness omega)/2.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rayleigh {
     /// Factor of the mass `[1/s]`.
     pub mass: f64,
@@ -86,8 +83,7 @@ pub struct Rayleigh {
 ///
 /// With G(s) = delta . R(d + s delta): the full step stays if |G(1)| <= tolerance |G(0)|, or if it falls short
 /// (G has kept its sign); otherwise the root of G in (0, 1) is sought by regula falsi until the tolerance is met.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineSearch {
     /// How far |G| must fall.
     pub tolerance: f64,

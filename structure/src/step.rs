@@ -1,14 +1,12 @@
 //! One time step: how velocity and acceleration follow from the unknown displacement.
 
 use partita_numerics::time::GeneralizedAlpha;
-use serde::{Deserialize, Serialize};
 
 use crate::error::StructureError;
 use crate::state::StructureState;
 
 /// How the structure goes from `t_n` to `t_{n+1}`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TimeScheme {
     /// Chung and Hulbert (1993), with the unknown d_{n+1}:
     ///
@@ -21,7 +19,6 @@ pub enum TimeScheme {
     /// except at radius 1.
     GeneralizedAlpha {
         /// Spectral radius at infinite frequency, in [0, 1]: 1 keeps all energy, 0 removes it within a step.
-        #[serde(default = "default_spectral_radius")]
         spectral_radius: f64,
     },
     /// Newmark (1959), with the unknown d_{n+1}: generalized-alpha with `alpha_m = alpha_f = 0`, so that
@@ -35,10 +32,8 @@ pub enum TimeScheme {
     /// [`GeneralizedAlpha::newmark`].
     Newmark {
         /// Weight of the new acceleration in the displacement, at least gamma/2: 1/4 is the average acceleration.
-        #[serde(default = "average_beta")]
         beta: f64,
         /// Weight of the new acceleration in the velocity, at least 1/2, which is the average acceleration.
-        #[serde(default = "average_gamma")]
         gamma: f64,
     },
     /// No inertia: `C (d_{n+1} - d_n)/dt + f_int(d_{n+1}) = f_ext_{n+1}`.
@@ -48,20 +43,8 @@ pub enum TimeScheme {
 impl Default for TimeScheme {
     /// Generalized-alpha with [`DEFAULT_SPECTRAL_RADIUS`](Self::DEFAULT_SPECTRAL_RADIUS).
     fn default() -> Self {
-        Self::GeneralizedAlpha { spectral_radius: default_spectral_radius() }
+        Self::GeneralizedAlpha { spectral_radius: Self::DEFAULT_SPECTRAL_RADIUS }
     }
-}
-
-const fn default_spectral_radius() -> f64 {
-    TimeScheme::DEFAULT_SPECTRAL_RADIUS
-}
-
-fn average_beta() -> f64 {
-    GeneralizedAlpha::AVERAGE_ACCELERATION.beta
-}
-
-fn average_gamma() -> f64 {
-    GeneralizedAlpha::AVERAGE_ACCELERATION.gamma
 }
 
 /// A scheme with its coefficients.
@@ -228,13 +211,6 @@ mod tests {
             assert_relative_eq!(damping, ahead[1] - behind[1], epsilon = 1e-12);
             assert_relative_eq!(stiffness, ahead[2] - behind[2], epsilon = 1e-12);
         }
-    }
-
-    #[test]
-    fn newmark_without_parameters_is_the_average_acceleration() {
-        let read = |text| serde_json::from_str::<TimeScheme>(text).unwrap();
-        assert_eq!(read(r#"{"newmark": {}}"#), TimeScheme::AVERAGE_ACCELERATION);
-        assert_eq!(read(r#"{"newmark": {"beta": 0.4}}"#), TimeScheme::Newmark { beta: 0.4, gamma: 0.5 });
     }
 
     #[test]

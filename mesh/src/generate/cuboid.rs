@@ -1,7 +1,5 @@
 //! Tetrahedra in a cuboid.
 
-use serde::{Deserialize, Serialize};
-
 use super::{check_box, grid_points};
 use crate::cell::{CellKind, Cells};
 use crate::error::MeshError;
@@ -9,8 +7,7 @@ use crate::mesh::{Mesh, NamedFacets};
 use crate::topology::boundary_facets;
 
 /// A cuboid and its divisions.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct CuboidMesh {
     /// Corner with the smallest coordinates `[m]`.
     pub origin: [f64; 3],

@@ -1,15 +1,12 @@
 //! Triangles in a rectangle.
 
-use serde::{Deserialize, Serialize};
-
 use super::{check_box, grid_points};
 use crate::cell::{CellKind, Cells};
 use crate::error::MeshError;
 use crate::mesh::{Mesh, NamedFacets};
 
 /// How each square of the grid is cut into triangles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Diagonal {
     /// Two triangles, the cut runs from the lower left to the upper right corner.
     Right,
@@ -23,8 +20,7 @@ pub enum Diagonal {
 }
 
 /// A rectangle and its divisions.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RectangleMesh {
     /// Lower left corner `[m]`.
     pub origin: [f64; 2],

@@ -1,15 +1,12 @@
 //! Triangles and quadrilaterals of degree 1 and 2 in a rectangle.
 
-use serde::{Deserialize, Serialize};
-
 use super::check_box;
 use crate::cell::{CellKind, Cells};
 use crate::error::MeshError;
 use crate::solid::{NamedEdges, SolidMesh, reference};
 
 /// A rectangle and its divisions.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SolidRectangle {
     /// Lower left corner `[m]`.
     pub origin: [f64; 2],

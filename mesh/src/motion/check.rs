@@ -1,7 +1,5 @@
 //! What a motion did to the cells.
 
-use serde::{Deserialize, Serialize};
-
 use super::system::inverted;
 use super::{MotionError, moved_vertices};
 use crate::cell::Cells;
@@ -9,7 +7,7 @@ use crate::quality::shape_quality;
 use crate::simplex;
 
 /// Size and shape of the cells of a displaced mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionQuality {
     /// Smallest area or volume of a cell `[m^D]`, positive.
     pub smallest_measure: f64,

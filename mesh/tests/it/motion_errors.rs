@@ -150,17 +150,3 @@ fn boundary_without_a_group_is_held() {
     let prescribed = prescribed_dofs(&mesh, &["bottom"]).expect("a straight side");
     assert_eq!(prescribed, [vec![true; 8], vec![false; 2]].concat());
 }
-
-#[test]
-fn settings_are_read_with_defaults() {
-    let read = |text| serde_json::from_str::<MotionSettings>(text).expect("valid settings");
-    assert_eq!(read("{}"), MotionSettings::default());
-    let law = MotionLaw::Elastic { poisson_ratio: 0.3, stiffening: 2.0 };
-    assert_eq!(
-        read(r#"{ "law": { "elastic": { "stiffening": 2.0 } }, "mode": "incremental" }"#),
-        MotionSettings { law, mode: MotionMode::Incremental }
-    );
-    let harmonic = MotionLaw::Harmonic { stiffening: 1.0 };
-    assert_eq!(read(r#"{ "law": { "harmonic": {} } }"#).law, harmonic);
-    assert!(serde_json::from_str::<MotionSettings>(r#"{ "lwa": 1 }"#).is_err());
-}

@@ -1,11 +1,9 @@
 //! The size of a residual, and when it is small enough.
 
-use serde::{Deserialize, Serialize};
-
 use crate::norms;
 
 /// The norm of a residual, as it is and against the size of its own terms.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ResidualNorm {
     /// |R|_2 over the free dofs, in the unit of the residual.
     pub absolute: f64,
@@ -49,8 +47,7 @@ impl ResidualNorm {
 }
 
 /// The bound below which a residual counts as zero.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bound {
     /// |R|_2 < bound * S.
     Relative(f64),

@@ -1,12 +1,9 @@
 //! When a Newton loop ends.
 
-use serde::{Deserialize, Serialize};
-
 use super::Bound;
 
 /// Where the loop compares the residual with its bound.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Check {
     /// Before each solve: a call that enters converged costs no iteration.
     #[default]
@@ -17,8 +14,7 @@ pub enum Check {
 }
 
 /// The rules of a Newton loop, the same for every call.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// The bound of the residual.
     pub bound: Bound,

@@ -1,10 +1,7 @@
 //! Backward differentiation.
 
-use serde::{Deserialize, Serialize};
-
 /// The order of a backward differentiation formula.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BdfOrder {
     /// Implicit Euler.
     #[default]
@@ -23,7 +20,7 @@ pub enum BdfOrder {
 /// ```
 ///
 /// Source: Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, section III.5.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bdf {
     /// The factors of u^{n+1}, u^n and u^{n-1} (1/s).
     pub c: [f64; 3],

@@ -1,7 +1,5 @@
 //! The generalized-alpha method.
 
-use serde::{Deserialize, Serialize};
-
 /// Generalized-alpha for second-order systems (Chung and Hulbert 1993).
 ///
 /// ```text
@@ -14,7 +12,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// Source: J. Chung, G. M. Hulbert, *A time integration algorithm for structural dynamics with improved
 /// numerical dissipation*, J. Appl. Mech. 60 (1993), equations (1)-(5), (17), (20) and (25).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GeneralizedAlpha {
     /// Weight of the old acceleration in the inertia.
     pub alpha_m: f64,

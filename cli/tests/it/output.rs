@@ -14,6 +14,7 @@ use partita_coupling::record::{
 };
 use partita_coupling::{Step, accelerate::Proposal};
 use partita_mesh::vtu::Array;
+use partita_testing::timeless;
 
 const SCENE: &str = "title = \"two steps\"\n";
 const DT: f64 = 0.01;
@@ -102,25 +103,11 @@ fn without_times(dir: &Path) -> BTreeMap<String, String> {
         for entry in fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()) {
             let name = entry.strip_prefix(dir).expect("inside").to_string_lossy().replace('\\', "/");
             if entry.is_file() && name != "summary.json" {
-                let text = fs::read_to_string(&entry).expect("text");
-                files.insert(name.clone(), strip_times(&name, &text));
+                files.insert(name, timeless::file(&entry));
             }
         }
     }
     files
-}
-
-fn strip_times(name: &str, text: &str) -> String {
-    if name == "run.jsonl" {
-        let strip = |line: &str| {
-            let (before, seconds) = line.split_once("\"seconds\":").expect("each record has times");
-            assert!(seconds.ends_with("}}}"), "times come last: {seconds}");
-            before.to_owned() + "\n"
-        };
-        text.lines().map(strip).collect()
-    } else {
-        text.to_owned()
-    }
 }
 
 #[test]

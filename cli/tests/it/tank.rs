@@ -10,6 +10,7 @@ use partita::scene::{self, Resolved};
 use partita::session::{Options, RunError, Session};
 use partita_coupling::conformance::{ParticipantCheck, check_participant};
 use partita_coupling::{IterationRecord, Participant, Record, Step};
+use partita_testing::timeless;
 use serde_json::Value;
 
 fn tank(overrides: &[&str]) -> Resolved {
@@ -202,13 +203,13 @@ fn resumed_equals_uninterrupted(further: &[&str]) -> Vec<String> {
     let resumed = Session::resume(&tank, &parts, options, clock).expect("it can be resumed");
     assert_eq!(resumed.finish().expect("the rest converges").steps, 9);
     for name in ["run.jsonl", "steps.csv", "probes.csv", "scene.toml", "fluid.pvd"] {
-        let timeless = |dir: &Path| without_times(&dir.join(name));
+        let timeless = |dir: &Path| timeless::file(&dir.join(name));
         assert_eq!(timeless(&whole), timeless(&parts), "{name}");
     }
     for name in ["fields/fluid-000009.vtu", "fields/structure-000009.vtu"] {
         assert!(fs::read(whole.join(name)).expect(name) == fs::read(parts.join(name)).expect(name), "{name}");
     }
-    without_times(&whole.join("steps.csv"))
+    timeless::file(&whole.join("steps.csv")).lines().map(str::to_owned).collect()
 }
 
 #[test]
@@ -233,27 +234,4 @@ fn start<'a>(tank: &'a Resolved, dir: &Path, steps: Option<usize>) -> Session<'a
 
 fn json(path: &PathBuf) -> Value {
     serde_json::from_str(&fs::read_to_string(path).expect("a file")).expect("JSON")
-}
-
-/// A file's lines without what depends on the machine: objects `seconds`, columns that end in `_seconds`.
-fn without_times(path: &Path) -> Vec<String> {
-    let text = fs::read_to_string(path).expect("a text file");
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some("jsonl") => text.lines().map(without_seconds).collect(),
-        Some("csv") => {
-            let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
-            let header = rows.next().expect("a header");
-            let kept: Vec<usize> = (0..header.len()).filter(|&i| !header[i].ends_with("_seconds")).collect();
-            let timeless = |row: Vec<&str>| kept.iter().map(|&i| row[i]).collect::<Vec<_>>().join(",");
-            [header.clone()].into_iter().chain(rows).map(timeless).collect()
-        }
-        _ => text.lines().map(str::to_owned).collect(),
-    }
-}
-
-fn without_seconds(line: &str) -> String {
-    let mut record: Value = serde_json::from_str(line).expect("a record");
-    let inner = record.as_object_mut().and_then(|record| record.values_mut().next());
-    inner.and_then(Value::as_object_mut).expect("one object").remove("seconds").expect("times");
-    record.to_string()
 }

@@ -3,19 +3,10 @@
 use partita_mesh::Mesh;
 use partita_mesh::generate::{CuboidMesh, Diagonal, RectangleMesh, cuboid, rectangle};
 
+use partita_testing::Noise;
+
 use super::*;
 use crate::settings::Tangent;
-
-/// Numbers in [-1, 1], the same in every run.
-fn numbers(count: usize, seed: u64) -> Vec<f64> {
-    let mut state = seed;
-    let mut next = || {
-        // Knuth's MMIX generator; the upper bits are good enough here.
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
-    (0..count).map(|_| next()).collect()
-}
 
 fn bits(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| value.to_bits()).collect()
@@ -35,7 +26,8 @@ fn is_the_same_to_the_bit<const D: usize, const N: usize>(mesh: &Mesh<D>, count:
         tangent,
     };
     let frames = Frames::new(&[], nodes);
-    let (values, vectors) = (numbers(nodes * (D + 1), 1), [2, 3, 4].map(|seed| numbers(nodes * D, seed)));
+    let (values, vectors) =
+        (Noise::new(1).numbers(nodes * (D + 1)), [2, 3, 4].map(|seed| Noise::new(seed).numbers(nodes * D)));
     let iterate = Iterate {
         convects: true,
         flow: &flow,

@@ -15,20 +15,7 @@ use partita_numerics::time::BdfOrder;
 pub(crate) const BDF1: TimeScheme = TimeScheme::Bdf(BdfOrder::One);
 pub(crate) const BDF2: TimeScheme = TimeScheme::Bdf(BdfOrder::Two);
 
-/// Numbers in [-1, 1], the same in every run.
-pub(crate) struct Numbers(u64);
-
-impl Numbers {
-    pub(crate) fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    pub(crate) fn next(&mut self) -> f64 {
-        // Knuth's MMIX generator; the upper bits are good enough here.
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
+pub(crate) use partita_testing::Noise;
 
 pub(crate) fn field<const D: usize>(
     f: impl Fn(&[f64; D], f64) -> [f64; D] + Send + Sync + 'static,
@@ -51,11 +38,7 @@ pub(crate) fn unit_cube(divisions: usize) -> Mesh<3> {
 }
 
 /// Displacements of the inner nodes, `node * D + c`, each component at most `amplitude`.
-pub(crate) fn inner_motion<const D: usize>(
-    mesh: &Mesh<D>,
-    amplitude: f64,
-    numbers: &mut Numbers,
-) -> Vec<f64> {
+pub(crate) fn inner_motion<const D: usize>(mesh: &Mesh<D>, amplitude: f64, numbers: &mut Noise) -> Vec<f64> {
     let mut inner = vec![true; mesh.points().len()];
     for facet in mesh.topology().boundary() {
         for node in facet.nodes {
@@ -63,12 +46,12 @@ pub(crate) fn inner_motion<const D: usize>(
         }
     }
     let scaled = |inner: bool, x: f64| if inner { amplitude * x } else { 0.0 };
-    inner.iter().flat_map(|inner| [*inner; D]).map(|inner| scaled(inner, numbers.next())).collect()
+    inner.iter().flat_map(|inner| [*inner; D]).map(|inner| scaled(inner, numbers.number())).collect()
 }
 
 /// The mesh with its inner nodes displaced at random.
 pub(crate) fn perturbed<const D: usize>(mesh: &Mesh<D>, amplitude: f64, seed: u64) -> Mesh<D> {
-    let motion = inner_motion(mesh, amplitude, &mut Numbers::new(seed));
+    let motion = inner_motion(mesh, amplitude, &mut Noise::new(seed));
     let moved = |(node, point): (usize, &[f64; D])| std::array::from_fn(|c| point[c] + motion[node * D + c]);
     mesh.with_points(mesh.points().iter().enumerate().map(moved).collect()).expect("no inverted cells")
 }

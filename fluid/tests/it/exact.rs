@@ -98,7 +98,7 @@ fn couette<const D: usize>(mesh: &Mesh<D>, time: TimeScheme, convection: bool) -
     model.initial = InitialState::Velocity(field(move |x, _| shear(x)));
     let settings = FluidSettings { pressure_pin: Some(PressurePin::default()), convection, ..settings(time) };
     let mut fluid = FluidSolver::new(mesh.clone(), model, settings).expect("a fluid");
-    let mut numbers = Numbers::new(3);
+    let mut numbers = Noise::new(3);
     let (mut t, mut error) = (0.0, 0.0_f64);
     for dt in [0.02, 0.02, 0.013, 0.03, 0.01] {
         t += dt;

@@ -7,7 +7,7 @@ use partita_mesh::generate::{Diagonal, RectangleMesh, rectangle};
 use partita_numerics::newton::{Limit, Problem};
 use partita_numerics::{Connectivity, DofMap, Factor, Method, Pattern, Scatter};
 
-use crate::common::{Numbers, boundary, field, unit_square};
+use crate::common::{Noise, boundary, field, unit_square};
 
 /// A channel of length one, `aspect` times as long as high: so stretched are its elements.
 fn channel(aspect: f64) -> Mesh<2> {
@@ -41,8 +41,8 @@ fn flow(aspect: f64, reynolds: f64, dt: f64) -> FluidSolver<2> {
 
 /// The same matrix with its equations renumbered at random.
 fn shuffled(pattern: &Pattern, values: &[f64]) -> (Pattern, Vec<f64>) {
-    let mut numbers = Numbers::new(11);
-    let keys: Vec<f64> = (0..pattern.size()).map(|_| numbers.next()).collect();
+    let mut numbers = Noise::new(11);
+    let keys: Vec<f64> = (0..pattern.size()).map(|_| numbers.number()).collect();
     let mut name: Vec<usize> = (0..pattern.size()).collect();
     name.sort_by(|&a, &b| keys[a].total_cmp(&keys[b]));
     let entries = (0..pattern.size()).flat_map(|column| {
@@ -65,8 +65,8 @@ fn shuffled(pattern: &Pattern, values: &[f64]) -> (Pattern, Vec<f64>) {
 
 /// max `|b - A x|_i / (|A| |x| + |b|)_i` before and after one step of iterative refinement.
 fn backward_errors(pattern: &Pattern, values: &[f64], factor: &mut Factor) -> [f64; 2] {
-    let mut numbers = Numbers::new(3);
-    let rhs: Vec<f64> = (0..pattern.size()).map(|_| numbers.next()).collect();
+    let mut numbers = Noise::new(3);
+    let rhs: Vec<f64> = (0..pattern.size()).map(|_| numbers.number()).collect();
     let sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
     let (mut x, mut residual) = (vec![0.0; rhs.len()], rhs.clone());
     [(); 2].map(|()| {

@@ -95,7 +95,7 @@ fn tangents_agree_on_the_solution() {
 fn unsteady_full_tangent_converges_quadratically_on_a_moving_mesh() {
     let mut fluid = cavity(BDF2, Tangent::Full);
     let mesh = fluid.mesh().clone();
-    let mut numbers = Numbers::new(5);
+    let mut numbers = Noise::new(5);
     for k in 1..4 {
         fluid.begin_step(0.2 * f64::from(k), 0.2).expect("a step");
         fluid.impose_mesh(&inner_motion(&mesh, 0.01, &mut numbers)).expect("no inverted cells");

@@ -5,7 +5,7 @@ use partita_fluid::{BoundaryCondition, FluidSettings, FluidSolver, TimeScheme};
 use partita_numerics::newton::{Limit, Report};
 
 use crate::common::{
-    BDF1, BDF2, Numbers, boundary, everywhere, field, inner_motion, model, perturbed, settings, unit_square,
+    BDF1, BDF2, Noise, boundary, everywhere, field, inner_motion, model, perturbed, settings, unit_square,
 };
 
 /// A channel whose inflow grows with time.
@@ -84,7 +84,7 @@ fn the_tangent_is_the_whole_derivative_on_a_moving_mesh_too() {
     conditions.retain(|(group, _)| group != "right");
     conditions.push(("right".to_owned(), BoundaryCondition::StressFree { backflow: true }));
     let mut fluid = FluidSolver::new(mesh.clone(), model(conditions), stokes(BDF1)).expect("a fluid");
-    let mut numbers = Numbers::new(8);
+    let mut numbers = Noise::new(8);
     for n in 1..=3 {
         fluid.begin_step(0.1 * f64::from(n), 0.1).expect("a step");
         fluid.impose_mesh(&inner_motion(&mesh, 0.02, &mut numbers)).expect("no inverted cells");

@@ -35,16 +35,17 @@ fn space(time: TimeScheme) -> FluidSolver<3> {
 
 /// Two committed steps and a third one begun, with random iterates and motions.
 fn in_motion<const D: usize>(mut fluid: FluidSolver<D>, amplitude: f64) -> FluidSolver<D> {
-    let mut numbers = Numbers::new(9);
+    let mut numbers = Noise::new(9);
     for (k, dt) in [0.1, 0.07, 0.12].into_iter().enumerate() {
         fluid.begin_step(0.1 * (k + 1) as f64, dt).expect("a step");
         let mesh: Mesh<D> = fluid.mesh().clone();
-        let mut motion: Vec<f64> = (0..mesh.points().len() * D).map(|_| amplitude * numbers.next()).collect();
+        let mut motion: Vec<f64> =
+            (0..mesh.points().len() * D).map(|_| amplitude * numbers.number()).collect();
         for node in mesh.group_nodes("front").unwrap_or_default() {
             motion[node * D + D - 1] = 0.0; // an inclined slip wall would turn the equations of its nodes
         }
         fluid.impose_mesh(&motion).expect("no inverted cells");
-        let values: Vec<f64> = fluid.values().iter().map(|_| numbers.next()).collect();
+        let values: Vec<f64> = fluid.values().iter().map(|_| numbers.number()).collect();
         fluid.set_values(&values).expect("finite values");
         if k < 2 {
             fluid.commit();
@@ -63,10 +64,10 @@ fn free_dofs<const D: usize>(fluid: &FluidSolver<D>) -> Vec<usize> {
 /// K x against the central difference of R along x, each block relative to its own size.
 fn defect<const D: usize>(fluid: &mut FluidSolver<D>) -> f64 {
     let free = free_dofs(fluid);
-    let mut numbers = Numbers::new(10);
+    let mut numbers = Noise::new(10);
     let mut worst = 0.0_f64;
     for _ in 0..5 {
-        let direction: Vec<f64> = free.iter().map(|_| numbers.next()).collect();
+        let direction: Vec<f64> = free.iter().map(|_| numbers.number()).collect();
         fluid.assemble(true).expect("an assembly");
         let (pattern, values) = fluid.tangent();
         let mut product = vec![0.0; free.len()];
@@ -130,9 +131,9 @@ fn tangent_of_a_closed_domain_is_derivative_of_residual() {
     let pin = Some(PressurePin { node: 5, pressure: 2.0 });
     let settings = FluidSettings { pressure_pin: pin, ..settings(BDF1) };
     let mut fluid = FluidSolver::new(mesh, model, settings).expect("a fluid");
-    let mut numbers = Numbers::new(11);
+    let mut numbers = Noise::new(11);
     fluid.begin_step(0.1, 0.1).expect("a step");
-    let values: Vec<f64> = fluid.values().iter().map(|_| numbers.next()).collect();
+    let values: Vec<f64> = fluid.values().iter().map(|_| numbers.number()).collect();
     fluid.set_values(&values).expect("finite values");
     assert_eq!(fluid.values()[5 * 3 + 2], 2.0);
     let defect = defect(&mut fluid);

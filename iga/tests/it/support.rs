@@ -71,9 +71,6 @@ pub(crate) fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
 
 /// A generator of numbers in [-1, 1] that are arbitrary but always the same.
 pub(crate) fn noise(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed;
-    move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        f64::from((state >> 33) as u32) / f64::from(1_u32 << 30) - 1.0
-    }
+    let mut noise = partita_testing::Noise::new(seed);
+    move || noise.number()
 }

@@ -3,6 +3,7 @@
 use partita_mesh::Mesh;
 use partita_mesh::generate::{CuboidMesh, Diagonal, RectangleMesh, cuboid, rectangle};
 use partita_mesh::mesh::facet_nodes;
+use partita_testing::Noise;
 
 pub(crate) const PATTERNS: [Diagonal; 4] =
     [Diagonal::Right, Diagonal::Left, Diagonal::Alternating, Diagonal::Crossed];
@@ -20,11 +21,11 @@ pub(crate) fn unit_cube(divisions: usize) -> Mesh<3> {
 /// The mesh with its inner nodes moved at random by up to `amplitude` in each direction.
 pub(crate) fn shaken<const D: usize>(mesh: &Mesh<D>, amplitude: f64) -> Mesh<D> {
     let boundary = facet_nodes(mesh.topology().boundary());
-    let mut random = Random(1);
+    let mut random = Noise::new(1);
     let mut points = mesh.points().to_vec();
     for (node, point) in points.iter_mut().enumerate() {
         if boundary.binary_search(&node).is_err() {
-            *point = point.map(|x| x + amplitude * random.next());
+            *point = point.map(|x| x + amplitude * random.number());
         }
     }
     mesh.with_points(points).expect("a small random motion inverts nothing")
@@ -38,14 +39,4 @@ pub(crate) fn field<const D: usize>(mesh: &Mesh<D>, function: impl Fn(&[f64; D])
 pub(crate) fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-}
-
-/// Numbers in [-1, 1), the same ones in every run (Knuth's linear congruential generator).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
 }

@@ -1,9 +1,8 @@
 //! Files cut or damaged anywhere give an error or a document: no panic, no hang, no absurd allocation.
 
-use std::path::Path;
-
 use allocation_counter::measure;
 use partita_mesh::gmsh::GmshFile;
+use partita_testing::{Noise, corpus};
 
 use crate::gmsh::{ALL, big_endian_prism, big_endian_prism_2, parse};
 
@@ -51,13 +50,13 @@ fn every_prefix_of_a_file_is_refused() {
 
 #[test]
 fn damaged_bytes_never_panic() {
-    let mut random = XorShift(0x9e37_79b9_7f4a_7c15);
+    let mut noise = Noise::new(0x9e37_79b9_7f4a_7c15);
     for file in ALL.into_iter().chain([&big_endian_prism()[..], &big_endian_prism_2()]) {
         for round in 0..1000 {
             let mut damaged = file.to_vec();
             for _ in 0..=(round % 4) {
-                let place = random.below(damaged.len());
-                damaged[place] = random.byte(round);
+                let place = noise.below(damaged.len());
+                damaged[place] = byte(&mut noise, round);
             }
             digest(&damaged);
         }
@@ -66,10 +65,10 @@ fn damaged_bytes_never_panic() {
 
 #[test]
 fn moved_and_doubled_pieces_never_panic() {
-    let mut random = XorShift(0xd1b5_4a32_d192_ed03);
+    let mut noise = Noise::new(0xd1b5_4a32_d192_ed03);
     for file in ALL {
         for _ in 0..300 {
-            let [a, b, c] = [0; 3].map(|_| random.below(file.len()));
+            let [a, b, c] = [0; 3].map(|_| noise.below(file.len()));
             let piece = &file[a.min(b)..a.max(b)];
             digest(&[&file[..c], piece, &file[c..]].concat());
             digest(&[&file[..a.min(b)], &file[a.max(b)..]].concat());
@@ -87,38 +86,13 @@ fn undamaged_files_pass_the_same_checks() {
 
 #[test]
 fn the_corpus_of_the_fuzz_target_never_panics() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus/gmsh");
-    let mut readable = 0;
-    let files: Vec<_> = std::fs::read_dir(&folder).expect("the corpus").collect();
-    assert!(files.len() > 100, "{} files in {}", files.len(), folder.display());
-    for file in &files {
-        let path = file.as_ref().expect("an entry").path();
-        readable += usize::from(digest(&std::fs::read(path).expect("a readable file")));
-    }
+    let files = corpus::of("gmsh");
+    assert!(files.len() > 100, "{} files", files.len());
+    let readable = files.iter().filter(|file| digest(file)).count();
     assert!(readable > 10, "of {} files {readable} can be read", files.len());
 }
 
-/// A small generator of pseudo-random numbers: the same damage in every run.
-struct XorShift(u64);
-
-impl XorShift {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
-
-    fn below(&mut self, end: usize) -> usize {
-        usize::try_from(self.next() >> 33).expect("31 bits fit") % end
-    }
-
-    /// Any byte, or in every other round a digit or a sign: text stays text and numbers change.
-    fn byte(&mut self, round: usize) -> u8 {
-        if round.is_multiple_of(2) {
-            self.next().to_le_bytes()[3]
-        } else {
-            b"0123456789-.e$\n \""[self.below(17)]
-        }
-    }
+/// Any byte, or in every other round a digit or a sign: text stays text and numbers change.
+fn byte(noise: &mut Noise, round: usize) -> u8 {
+    if round.is_multiple_of(2) { noise.below(256).to_le_bytes()[0] } else { noise.of(b"0123456789-.e$\n \"") }
 }

@@ -1,7 +1,5 @@
 //! Whatever a file holds, the answer is a scene or a message, never a panic.
 
-use std::path::Path;
-
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use partita::scene::{parse, to_toml};
 
@@ -129,12 +127,10 @@ fn a_scene_nested_deeply_is_answered() {
 
 #[test]
 fn the_corpus_of_the_fuzz_target_is_answered() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus/scene");
-    let files: Vec<_> = std::fs::read_dir(&folder).expect("the corpus").collect();
-    assert!(files.len() > 100, "{} files in {}", files.len(), folder.display());
-    for file in &files {
-        let path = file.as_ref().expect("an entry").path();
-        let input = String::from_utf8(std::fs::read(path).expect("a readable file")).expect("text");
+    let inputs = partita_testing::corpus::of("scene");
+    assert!(inputs.len() > 100, "{} files", inputs.len());
+    for input in inputs {
+        let input = String::from_utf8(input).expect("text");
         // As the target splits it: lines that begin with `--set ` are overrides.
         let (given, kept): (Vec<&str>, Vec<&str>) =
             input.split_inclusive('\n').partition(|line| line.starts_with("--set "));

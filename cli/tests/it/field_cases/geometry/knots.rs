@@ -92,11 +92,8 @@ fn mutated_splines_are_refused_or_run() {
         "-0.0",
     ];
     let numbers: Vec<(usize, usize)> = number_spans(&text);
-    let mut state = 7_u64;
-    let mut random = move |bound: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        usize::try_from(state >> 33).expect("31 bits") % bound
-    };
+    let mut noise = partita_testing::Noise::new(7);
+    let mut random = move |bound: usize| noise.below(bound);
     let mut sound = 0;
     for _ in 0..500 {
         let mut mutated = text.clone();

@@ -9,29 +9,10 @@ use partita::output::Clock;
 use partita::scene::{SceneError, load};
 use partita::session::{Options, Session};
 use partita::{build, check, warning};
+use partita_testing::Noise;
 
 use super::super::Case;
 use crate::scene::SOUND;
-
-/// A small generator of pseudo-random numbers (xorshift): the same damage in every run.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
-
-    fn below(&mut self, end: usize) -> usize {
-        usize::try_from(self.next() >> 33).expect("31 bits fit") % end.max(1)
-    }
-
-    fn of<T: Copy>(&mut self, all: &[T]) -> T {
-        all[self.below(all.len())]
-    }
-}
 
 /// What a value may become. Counts are tiny or absurd: one that is merely large would be honest work.
 const STRANGE: [&str; 26] = [
@@ -64,7 +45,7 @@ const STRANGE: [&str; 26] = [
 ];
 
 /// Damages text: one word, two words, one line, two lines, the end, or a byte.
-fn damage_text(text: &str, random: &mut Random) -> String {
+fn damage_text(text: &str, random: &mut Noise) -> String {
     let lines: Vec<&str> = text.split_inclusive('\n').collect();
     let words = words(text);
     if words.is_empty() {
@@ -126,7 +107,7 @@ fn words(text: &str) -> Vec<std::ops::Range<usize>> {
 }
 
 /// Damages bytes: some of them, four or eight of them at once, or the end.
-fn damage_bytes(bytes: &[u8], random: &mut Random) -> Vec<u8> {
+fn damage_bytes(bytes: &[u8], random: &mut Noise) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     let at = random.below(bytes.len());
     let put = |bytes: &mut [u8], new: &[u8]| {
@@ -144,7 +125,7 @@ fn damage_bytes(bytes: &[u8], random: &mut Random) -> Vec<u8> {
         _ => {
             for _ in 0..3 {
                 let at = random.below(bytes.len());
-                bytes[at] = random.next().to_le_bytes()[3];
+                bytes[at] = random.below(256).to_le_bytes()[0];
             }
         }
     }
@@ -162,7 +143,7 @@ impl Tally {
     /// Damages `file` of a scene in `folder` so many times, and looks at the scene each time.
     fn damage(&mut self, case: &Case, scene: &str, file: &str, rounds: usize) {
         let whole = fs::read(case.path(file)).expect("the file is there");
-        let mut random = Random(0x9e37_79b9_7f4a_7c15 ^ (whole.len() as u64) << 8 ^ rounds as u64);
+        let mut random = Noise::new(0x9e37_79b9_7f4a_7c15 ^ (whole.len() as u64) << 8 ^ rounds as u64);
         assert!(answer(&case.path(scene), &case.path("out")), "{scene} itself is sound");
         for round in 0..rounds {
             let mutant = match str::from_utf8(&whole) {

@@ -68,9 +68,7 @@ impl Report for Accuracy {
         let mut found = Vec::new();
         for name in &self.studies {
             let out = runs.sweep("study", &Study::file(name), &[])?;
-            for row in Csv::read(&out.join("study.csv"))?.rows() {
-                found.push(Row::of_study(&row)?);
-            }
+            found.extend(Csv::read_as(&out.join("study.csv"), |row| Row::of_study(&row))?);
         }
         // Where all are new, nothing that is kept matters, not even whether it can be read.
         let is_part = self.studies.len() < STUDIES.len() && runs.root.join(DATA).exists();
@@ -96,7 +94,7 @@ impl Report for Accuracy {
 }
 
 fn kept_rows(root: &Path) -> Result<Vec<Row>, TaskError> {
-    Csv::read(&root.join(DATA))?.rows().map(|values| Row::read(&values)).collect()
+    Csv::read_as(&root.join(DATA), |row| Row::read(&row))
 }
 
 /// Errors; times and counts are left out.

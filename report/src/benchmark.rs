@@ -139,7 +139,7 @@ impl Report for Benchmarks {
 
 fn kept_rows(root: &Path) -> Result<Vec<Row>, TaskError> {
     let path = root.join(DATA);
-    if path.is_file() { row::from_csv(&Csv::read(&path)?) } else { Ok(Vec::new()) }
+    if path.is_file() { Csv::read_as(&path, Row::read) } else { Ok(Vec::new()) }
 }
 
 /// The rows in the order of the cases; those of cases that are gone are left out.

@@ -31,6 +31,14 @@ impl Csv {
         Self::parse(&text).map_err(|what| TaskError::Failed(format!("{}: {what}", path.display())))
     }
 
+    /// Reads a file as values that each have a row.
+    pub(crate) fn read_as<T>(
+        path: &Path,
+        value: impl Fn(Row<'_>) -> Result<T, TaskError>,
+    ) -> Result<Vec<T>, TaskError> {
+        Self::read(path)?.rows().map(value).collect()
+    }
+
     /// Reads a text.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let mut lines = text.lines().enumerate();

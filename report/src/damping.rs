@@ -41,7 +41,7 @@ impl Report for Damping {
 }
 
 fn kept(root: &Path) -> Result<Vec<Row>, TaskError> {
-    Csv::read(&root.join(DATA))?.rows().map(|values| Row::read(&values)).collect()
+    Csv::read_as(&root.join(DATA), |row| Row::read(&row))
 }
 
 /// Numbers to three digits; errors below a millionth are round-off of the bounds.

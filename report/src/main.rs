@@ -31,7 +31,7 @@ mod snapshot;
 mod stability;
 mod task;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -76,7 +76,11 @@ enum Task {
     /// Time the fluid's parts and whole steps: docs/performance.md
     Performance(performance::Arguments),
     /// Check every page against its data, and the first steps of the paper's cases against their counts
-    Check,
+    Check {
+        /// Start this program instead of building `partita` in the profile of this one
+        #[arg(long, value_name = "PATH")]
+        program: Option<PathBuf>,
+    },
 }
 
 fn main() -> ExitCode {
@@ -101,10 +105,10 @@ fn dispatch(root: &Path, task: &Task) -> Result<(), TaskError> {
         Task::Effects(options) => carry_out(root, &effects::Effects, options),
         Task::Damping(options) => carry_out(root, &damping::Damping, options),
         Task::Performance(arguments) => performance::run(root, arguments),
-        Task::Check => {
+        Task::Check { program } => {
             check_pages(root)?;
             println!("== cargo xtask reproduce --quick");
-            carry_out(root, &reproduce::Quick, &Options::default())
+            carry_out(root, &reproduce::Quick, &Options::with(program.clone()))
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The options that all tasks have.
 
 use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
@@ -37,6 +38,9 @@ pub(crate) struct Options {
     /// Run again what is remembered from an earlier task
     #[arg(long)]
     pub(crate) fresh: bool,
+    /// Start this program instead of building `partita` in the profile of this one
+    #[arg(long, value_name = "PATH")]
+    pub(crate) program: Option<PathBuf>,
 }
 
 /// What a task does of all that its options could ask for.
@@ -61,6 +65,11 @@ impl Abilities {
 }
 
 impl Options {
+    /// All defaults, with this program.
+    pub(crate) fn with(program: Option<PathBuf>) -> Self {
+        Self { program, ..Self::default() }
+    }
+
     /// The mode, once everything has been refused that the task does not do.
     pub(crate) fn mode(&self, abilities: &Abilities) -> Result<Mode, TaskError> {
         let Abilities { task, measures_time, compares, has_page, default } = *abilities;
@@ -74,7 +83,9 @@ impl Options {
         if !mode.runs() && !has_page {
             return refused(format!("{task} has no page"), "use --mode write or --mode compare");
         }
-        for (given, option) in [(self.fresh, "--fresh"), (self.jobs.is_some(), "--jobs")] {
+        let of_runs =
+            [(self.fresh, "--fresh"), (self.jobs.is_some(), "--jobs"), (self.program.is_some(), "--program")];
+        for (given, option) in of_runs {
             if given && !mode.runs() {
                 return refused(
                     format!("{option} asks for runs, and this mode runs nothing"),

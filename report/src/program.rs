@@ -21,19 +21,16 @@ pub(crate) struct Program {
 }
 
 impl Program {
-    /// Builds it. All programs of the workspace are built together, so that they share every compiled crate.
-    pub(crate) fn build(root: &Path) -> Result<Self, TaskError> {
-        let mut command = cargo(root, &["build", "--quiet", "--workspace", "--bins", "--profile", profile()]);
-        command.arg("--message-format=json-render-diagnostics");
-        let binary = executable(&captured(command)?, "partita")
-            .ok_or_else(|| TaskError::Failed("cargo built no program `partita`".to_owned()))?;
+    /// The one at this path, or one that is built. All programs of the workspace are built together, so that they share every
+    /// compiled crate.
+    pub(crate) fn open(root: &Path, path: Option<&Path>) -> Result<Self, TaskError> {
+        let binary = match path {
+            Some(path) => std::path::absolute(path)
+                .map_err(|source| TaskError::File { path: path.to_owned(), source })?,
+            None => build(root)?,
+        };
         let revision = checksum(&task::read_bytes(&binary)?);
         Ok(Self { root: root.to_owned(), binary, revision })
-    }
-
-    /// The folder that holds those of all profiles.
-    pub(crate) fn target(&self) -> &Path {
-        self.binary.parent().and_then(Path::parent).expect("cargo puts a binary into target/<profile>")
     }
 
     /// Runs it in silence. Returns what it said where a step could not be solved; any other failure is an error.
@@ -62,6 +59,14 @@ impl Program {
         command.current_dir(&self.root).args(words);
         command
     }
+}
+
+/// Builds the program and returns its path.
+fn build(root: &Path) -> Result<PathBuf, TaskError> {
+    let mut command = cargo(root, &["build", "--quiet", "--workspace", "--bins", "--profile", profile()]);
+    command.arg("--message-format=json-render-diagnostics");
+    executable(&captured(command)?, "partita")
+        .ok_or_else(|| TaskError::Failed("cargo built no program `partita`".to_owned()))
 }
 
 /// The profile of this program.

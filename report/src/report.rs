@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::csv::Csv;
 use crate::options::{Abilities, Mode, Options};
+use crate::program::Program;
 use crate::runs::Runs;
 use crate::task::{self, TaskError};
 
@@ -44,7 +45,10 @@ pub(crate) trait Report {
 pub(crate) fn carry_out(root: &Path, report: &impl Report, options: &Options) -> Result<(), TaskError> {
     let abilities = report.abilities();
     let mode = options.mode(&abilities)?;
-    let found = || report.found(Runs::open(root, options.jobs(&abilities), options.fresh)?);
+    let found = || {
+        let program = Program::open(root, options.program.as_deref())?;
+        report.found(Runs::open(root, program, options.jobs(&abilities), options.fresh))
+    };
     match mode {
         Mode::Write => {
             let Found { tables, files } = found()?;

@@ -35,11 +35,10 @@ pub(crate) struct Spent {
 }
 
 impl Runs {
-    /// Builds the program. `jobs` runs go at a time; a `fresh` run is done whether it is remembered or not.
-    pub(crate) fn open(root: &Path, jobs: usize, fresh: bool) -> Result<Self, TaskError> {
-        let program = Program::build(root)?;
-        let cache = Cache::new(program.target().join("report"), !fresh);
-        Ok(Self { root: root.to_owned(), program, cache, jobs })
+    /// `jobs` runs go at a time; a `fresh` run is done whether it is remembered or not.
+    pub(crate) fn open(root: &Path, program: Program, jobs: usize, fresh: bool) -> Self {
+        let cache = Cache::new(root.join("target/report"), !fresh);
+        Self { root: root.to_owned(), program, cache, jobs }
     }
 
     /// The same with `jobs` runs at a time, all of them done again.
@@ -51,7 +50,7 @@ impl Runs {
 
     /// A folder for what runs need beside the scene.
     pub(crate) fn supplies(&self) -> PathBuf {
-        self.program.target().join("report-supplies")
+        self.root.join("target/report-supplies")
     }
 
     /// Does the runs, or remembers them, and returns their outcomes in the order of `runs`.

@@ -5,8 +5,10 @@
 mod array;
 mod atomic;
 mod pvd;
+mod read;
 
 pub use pvd::{PvdCollection, PvdEntry};
+pub use read::{NotVtu, VtuArray, VtuFile};
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -59,6 +61,14 @@ pub enum VtuError {
         path: PathBuf,
         /// Why.
         source: io::Error,
+    },
+    /// A file that is no unstructured grid.
+    #[error("`{}` cannot be read as VTU: {reason}\nhint: it must have one piece with ASCII or zlib-compressed base64 arrays", path.display())]
+    NotAGrid {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
     },
     /// A collection that is not one.
     #[error("`{}` is no collection of VTK files: {reason}\nhint: move the file away; the next run writes a new one", path.display())]

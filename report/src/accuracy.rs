@@ -6,15 +6,19 @@
 mod findings;
 mod page;
 mod row;
-mod run;
 mod short;
 mod study;
 
 use std::path::Path;
 
+use clap::Args;
+
 use crate::csv::Csv;
-use crate::selection::{Mode, Selection};
-use crate::task::{self, TaskError};
+use crate::kept;
+use crate::options::{Abilities, Options};
+use crate::report::{File, Found, Report, Table, carry_out};
+use crate::runs::Runs;
+use crate::task::TaskError;
 use findings::Findings;
 use row::Row;
 use study::{STUDIES, Study};
@@ -22,69 +26,80 @@ use study::{STUDIES, Study};
 const DATA: &str = "docs/data/accuracy.csv";
 const PAGE: &str = "docs/accuracy.md";
 
-const USAGE: &str = "Usage: cargo xtask accuracy [--mode check|write|page] [STUDY]...";
+/// What stands behind `accuracy`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Studies to run [default: all]
+    #[arg(value_name = "STUDY", value_parser = STUDIES)]
+    studies: Vec<String>,
+    #[command(flatten)]
+    options: Options,
+}
 
-/// The task as its words say.
-pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
-    let Selection { mode, names: studies } = Selection::parse("accuracy", USAGE, &STUDIES, words)?;
-    match mode {
-        Mode::Page => write_pages(root),
-        Mode::Write => {
-            let found = run::studies(root, &studies)?;
-            // Where all are new, nothing that is kept matters, not even whether it can be read.
-            let is_part = studies.len() < STUDIES.len() && root.join(DATA).exists();
-            let others = if is_part { kept(root)? } else { Vec::new() };
-            let rows = merged(others, &studies, found);
-            task::write(&root.join(DATA), &row::to_csv(&rows).to_text())?;
-            write_pages(root)
-        }
-        Mode::Check => {
-            let found = run::studies(root, &studies)?;
-            let mut differing = differences(&kept(root)?, &studies, &found);
-            differing.extend(stale(root)?);
-            if differing.is_empty() { Ok(()) } else { Err(TaskError::Failed(differing.join("\n"))) }
-        }
+/// The studies to be run.
+pub(crate) struct Accuracy {
+    studies: Vec<&'static str>,
+}
+
+impl Accuracy {
+    pub(crate) fn all() -> Self {
+        Self::of(&[])
+    }
+
+    /// Those with these names in the order of the page, all where none is given.
+    fn of(names: &[String]) -> Self {
+        let asked = |name: &&str| names.is_empty() || names.iter().any(|other| other == name);
+        Self { studies: STUDIES.into_iter().filter(asked).collect() }
     }
 }
 
-fn write_pages(root: &Path) -> Result<(), TaskError> {
-    for (path, text) in files(root)? {
-        task::write(&root.join(path), &text)?;
+/// The task as its arguments say.
+pub(crate) fn run(root: &Path, arguments: &Arguments) -> Result<(), TaskError> {
+    carry_out(root, &Accuracy::of(&arguments.studies), &arguments.options)
+}
+
+impl Report for Accuracy {
+    fn abilities(&self) -> Abilities {
+        Abilities { measures_time: true, ..Abilities::of("accuracy") }
     }
-    Ok(())
-}
 
-/// Runs nothing; fails where page or pictures differ from what the data give.
-pub(crate) fn check_pages(root: &Path) -> Result<(), TaskError> {
-    let stale = stale(root)?;
-    if stale.is_empty() { Ok(()) } else { Err(TaskError::Failed(stale.join("\n"))) }
-}
-
-fn stale(root: &Path) -> Result<Vec<String>, TaskError> {
-    let differs = |(path, text): &(String, String)| task::read(&root.join(path)).ok().as_ref() != Some(text);
-    let line =
-        |(path, _)| format!("{path} does not say what {DATA} says; `cargo xtask accuracy --mode page`");
-    Ok(files(root)?.into_iter().filter(differs).map(line).collect())
-}
-
-/// Page and pictures of the kept rows, by their paths.
-fn files(root: &Path) -> Result<Vec<(String, String)>, TaskError> {
-    let rows = kept(root)?;
-    let findings: Vec<Findings> = STUDIES
-        .iter()
-        .map(|name| Ok(Findings::new(Study::read(root, name)?, &rows)))
-        .collect::<Result<_, TaskError>>()?;
-    let mut files = vec![(PAGE.to_owned(), page::markdown(&findings))];
-    for found in &findings {
-        if let Some(picture) = found.diagram() {
-            files.push((format!("docs/{}", found.picture()), picture));
+    /// Runs the studies one after the other.
+    fn found(&self, runs: Runs) -> Result<Found, TaskError> {
+        let mut found = Vec::new();
+        for name in &self.studies {
+            let out = runs.sweep("study", &Study::file(name), &[])?;
+            found.extend(Csv::read_as(&out.join("study.csv"), |row| Row::of_study(&row))?);
         }
+        // Where all are new, nothing that is kept matters, not even whether it can be read.
+        let is_part = self.studies.len() < STUDIES.len() && runs.root.join(DATA).exists();
+        let others = if is_part { kept_rows(&runs.root)? } else { Vec::new() };
+        let rows = row::to_csv(&merged(others, &self.studies, found));
+        Ok(Found { tables: vec![Table { path: DATA.to_owned(), rows, differences }], files: Vec::new() })
     }
-    Ok(files)
+
+    fn pages(&self, root: &Path) -> Result<Vec<File>, TaskError> {
+        let rows = kept_rows(root)?;
+        let findings: Vec<Findings> = STUDIES
+            .iter()
+            .map(|name| Ok(Findings::new(Study::read(root, name)?, &rows)))
+            .collect::<Result<_, TaskError>>()?;
+        let mut files = vec![(PAGE.to_owned(), page::text(&findings))];
+        for found in &findings {
+            if let Some(picture) = found.diagram() {
+                files.push((format!("docs/{}", found.picture()), picture));
+            }
+        }
+        Ok(files)
+    }
 }
 
-fn kept(root: &Path) -> Result<Vec<Row>, TaskError> {
-    Csv::read(&root.join(DATA))?.rows().map(|values| Row::read(&values)).collect()
+fn kept_rows(root: &Path) -> Result<Vec<Row>, TaskError> {
+    Csv::read_as(&root.join(DATA), |row| Row::read(&row))
+}
+
+/// Errors; times and counts are left out.
+fn differences(kept: &Csv, found: &Csv) -> Result<Vec<String>, TaskError> {
+    kept::differences(&["study", "choice", "setting"], &[("error", row::ERROR)], kept, found)
 }
 
 /// The kept rows with those of `studies` replaced, in the order of the page.
@@ -95,30 +110,10 @@ fn merged(kept: Vec<Row>, studies: &[&str], found: Vec<Row>) -> Vec<Row> {
     STUDIES.iter().flat_map(of).collect()
 }
 
-/// Rows of `studies` that are not what was kept, times left aside.
-fn differences(kept: &[Row], studies: &[&str], found: &[Row]) -> Vec<String> {
-    let difference = |found: &Row| match kept.iter().find(|row| row.is_setting_of(found)) {
-        None => Some(format!("{} is not in {DATA}", found.shown())),
-        Some(kept) if kept.agrees_with(found) => None,
-        Some(kept) => Some(format!("found  {}\nkept   {}", found.shown(), kept.shown())),
-    };
-    let mut all: Vec<String> = found.iter().filter_map(difference).collect();
-    let asked = kept.iter().filter(|row| studies.contains(&row.study.as_str()));
-    let lost = asked.filter(|row| !found.iter().any(|found| found.is_setting_of(row)));
-    all.extend(lost.map(|row| format!("{} is in {DATA} alone", row.shown())));
-    all
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::task::workspace_root;
-
-    /// The page says what the data says: nobody has edited one without the other.
-    #[test]
-    fn page_and_pictures_are_those_of_the_data() {
-        check_pages(workspace_root()).expect("the shipped page");
-    }
+    use crate::task::{self, workspace_root};
 
     #[test]
     fn every_study_on_the_disk_is_on_the_page_and_has_rows() {
@@ -132,7 +127,7 @@ mod tests {
         let mut listed = STUDIES.to_vec();
         listed.sort_unstable();
         assert_eq!(on_disk, listed);
-        let rows = kept(root).expect("the shipped rows");
+        let rows = kept_rows(root).expect("the shipped rows");
         for name in STUDIES {
             assert!(rows.iter().any(|row| row.study == name), "{name} has no row in {DATA}");
             for beside in Study::read(root, name).expect("a shipped study").beside {
@@ -142,20 +137,6 @@ mod tests {
                 );
             }
         }
-    }
-
-    #[test]
-    fn times_may_differ_and_errors_may_not() {
-        let row = |study: &str, error: f64, cpu: f64| row::tests::row(study, "BDF1", "dt", error, cpu);
-        let kept = [row("csm1", 0.5, 1.0), row("fsi1", 1e-3, 1.0)];
-        let found = |error: f64, cpu: f64| differences(&kept, &["csm1"], &[row("csm1", error, cpu)]).len();
-        assert_eq!(found(0.5, 9.0), 0);
-        assert_eq!(found(0.501, 1.0), 0);
-        assert_eq!(found(0.52, 1.0), 1);
-        // What is missing is found where it was asked for only.
-        assert_eq!(differences(&kept, &["csm1"], &[]).len(), 1);
-        assert_eq!(differences(&kept, &["csm1", "fsi1"], &[]).len(), 2);
-        assert_eq!(differences(&[], &["csm1"], &[row("csm1", 0.5, 1.0)]).len(), 1);
     }
 
     #[test]

@@ -5,17 +5,21 @@ mod page;
 
 use std::path::Path;
 
+use partita::output::Seconds;
+
 use crate::csv::Csv;
-use crate::options::{Mode, Options};
+use crate::kept::{self, COUNT};
+use crate::options::Abilities;
+use crate::report::{File, Found, Report};
 use crate::reproduce::case::Case;
 use crate::reproduce::counts::Counts;
 use crate::reproduce::facts::{Cost, Facts};
 use crate::reproduce::results;
 use crate::reproduce::setting::{Adaptive, Setting};
-use crate::reproduce::study::{Study, carry_out};
-use crate::reproduce::workshop::Workshop;
+use crate::reproduce::study::{Study, carry_out_all};
+use crate::runs::Runs;
 use crate::sensitivity::variants;
-use crate::task::{self, TaskError};
+use crate::task::TaskError;
 
 const RESULTS: &str = "beyond.csv";
 
@@ -56,41 +60,46 @@ struct Variant {
     facts: [Facts; 2],
 }
 
-/// The task as its options say.
-pub(crate) fn run(root: &Path, options: &Options) -> Result<(), TaskError> {
-    match options.mode {
-        Some(Mode::Check) => return page::check(root),
-        Some(Mode::Page) => return page::write(root),
-        Some(Mode::Write | Mode::Print) | None => {}
+/// Tables 1 and 2 with both.
+pub(crate) struct Beyond;
+
+impl Report for Beyond {
+    fn abilities(&self) -> Abilities {
+        Abilities::of("beyond")
     }
-    let workshop = Workshop::open(root, options.jobs, !options.fresh)?;
-    let mut table = Csv::new(COLUMNS);
-    for case in Case::ALL {
-        let mut cases = Vec::new();
-        let mut studies = Vec::new();
-        for (index, variant) in variants(root, &workshop.supplies(), case)?.into_iter().enumerate() {
-            for convergence in Convergence::BOTH {
-                let keys = [variant.keys.clone(), convergence.keys()].concat();
-                let small = Study { relaxation: false, ..Study::small(case, keys) };
-                // The scene itself at all settings of the paper.
-                studies.push(if index == 0 { Study { limits: case.grid(), ..small } } else { small });
-                cases.push((variant.label.clone(), convergence));
+
+    fn found(&self, runs: Runs) -> Result<Found, TaskError> {
+        let mut table = Csv::new(COLUMNS);
+        for case in Case::ALL {
+            let mut cases = Vec::new();
+            let mut studies = Vec::new();
+            let variants = variants(&runs.root, &runs.supplies(), case)?;
+            for (index, variant) in variants.into_iter().enumerate() {
+                for convergence in Convergence::BOTH {
+                    let keys = [variant.keys.clone(), convergence.keys()].concat();
+                    let small = Study { relaxation: false, ..Study::small(case, keys) };
+                    // The scene itself at all settings of the paper.
+                    studies.push(if index == 0 { Study { limits: case.grid(), ..small } } else { small });
+                    cases.push((variant.label.clone(), convergence));
+                }
+            }
+            for ((label, convergence), facts) in cases.iter().zip(&carry_out_all(&runs, &studies)?) {
+                for row in rows(label, *convergence, facts) {
+                    table.push(row);
+                }
             }
         }
-        let (found, spent) = carry_out(&workshop, &studies)?;
-        eprintln!("{}: {} runs done, {:.0} s of processor time", case.short(), spent.done, spent.cpu_seconds);
-        for ((label, convergence), facts) in cases.iter().zip(&found) {
-            for row in rows(label, *convergence, facts) {
-                table.push(row);
-            }
-        }
+        Ok(Found { tables: vec![results::table(RESULTS, table, differences)], files: Vec::new() })
     }
-    if options.mode == Some(Mode::Print) {
-        print!("{}", table.to_text());
-        return Ok(());
+
+    fn pages(&self, root: &Path) -> Result<Vec<File>, TaskError> {
+        page::files(root)
     }
-    task::write(&results::folder(root).join(RESULTS), &table.to_text())?;
-    page::write(root)
+}
+
+fn differences(kept: &Csv, found: &Csv) -> Result<Vec<String>, TaskError> {
+    let columns = ["coupling", "newton_fluid", "newton_structure"].map(|column| (column, COUNT));
+    kept::differences(&["case", "variant", "convergence", "setting"], &columns, kept, found)
 }
 
 const COLUMNS: [&str; 9] = [
@@ -142,7 +151,7 @@ fn read(root: &Path) -> Result<Vec<Variant>, TaskError> {
         }
         if let Some(counts) = counts {
             let (wall_seconds, cpu_seconds) = (row.value("wall_seconds")?, row.value("cpu_seconds")?);
-            let seconds = crate::reproduce::run::Seconds::default();
+            let seconds = Seconds::default();
             facts.costs.push(Cost { setting, counts, wall_seconds, cpu_seconds, seconds });
         }
     }

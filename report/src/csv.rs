@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use partita::output::table::csv_header;
+
 use crate::task::{self, TaskError};
 
 /// A table of text with named columns.
@@ -29,6 +31,14 @@ impl Csv {
         Self::parse(&text).map_err(|what| TaskError::Failed(format!("{}: {what}", path.display())))
     }
 
+    /// Reads a file as values that each have a row.
+    pub(crate) fn read_as<T>(
+        path: &Path,
+        value: impl Fn(Row<'_>) -> Result<T, TaskError>,
+    ) -> Result<Vec<T>, TaskError> {
+        Self::read(path)?.rows().map(value).collect()
+    }
+
     /// Reads a text.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let mut lines = text.lines().enumerate();
@@ -47,10 +57,28 @@ impl Csv {
 
     /// The file's text.
     pub(crate) fn to_text(&self) -> String {
-        let line = |values: &Vec<String>| {
-            values.iter().map(|value| quoted(value)).collect::<Vec<_>>().join(",") + "\n"
-        };
-        std::iter::once(&self.header).chain(&self.rows).map(line).collect()
+        std::iter::once(&self.header).chain(&self.rows).map(|values| csv_header(values)).collect()
+    }
+
+    /// A row by its place.
+    pub(crate) fn row(&self, index: usize) -> Row<'_> {
+        Row { header: &self.header, values: &self.rows[index] }
+    }
+
+    /// The names of the columns.
+    pub(crate) fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// The numbers in a column, `NaN` where a cell holds none; `None` without such a column.
+    pub(crate) fn numbers(&self, column: &str) -> Option<Vec<f64>> {
+        let index = self.header.iter().position(|name| name == column)?;
+        Some(self.rows.iter().map(|row| row[index].parse().unwrap_or(f64::NAN)).collect())
+    }
+
+    /// The vectors in two columns.
+    pub(crate) fn vectors(&self, columns: [&str; 2]) -> Result<Vec<[f64; 2]>, TaskError> {
+        self.rows().map(|row| Ok([row.value(columns[0])?, row.value(columns[1])?])).collect()
     }
 
     /// The rows, to be asked for values by column.
@@ -85,10 +113,6 @@ impl<'a> Row<'a> {
     pub(crate) fn optional<T: std::str::FromStr>(&self, column: &str) -> Result<Option<T>, TaskError> {
         if self.text(column)?.is_empty() { Ok(None) } else { self.value(column).map(Some) }
     }
-}
-
-fn quoted(value: &str) -> String {
-    if value.contains([',', '"']) { format!("\"{}\"", value.replace('"', "\"\"")) } else { value.to_owned() }
 }
 
 fn values(line: &str) -> Vec<String> {

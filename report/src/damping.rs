@@ -12,60 +12,48 @@ mod series;
 use std::path::Path;
 
 use crate::csv::Csv;
-use crate::selection::{Mode, Selection};
-use crate::task::{self, TaskError};
+use crate::kept::{self, EXACT, Tolerance};
+use crate::options::Abilities;
+use crate::report::{File, Found, Report, Table};
+use crate::runs::Runs;
+use crate::task::TaskError;
 use row::Row;
 
 const DATA: &str = "docs/data/damping.csv";
 const PAGE: &str = "docs/damping.md";
 
-const USAGE: &str = "Usage: cargo xtask damping [--mode check|write|page]";
+/// The scenes at several radii.
+pub(crate) struct Damping;
 
-/// The task as its words say.
-pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
-    match Selection::parse("damping", USAGE, &[], words)?.mode {
-        Mode::Page => write_page(root),
-        Mode::Write => {
-            let rows = run::all(root)?;
-            task::write(&root.join(DATA), &row::to_csv(&rows).to_text())?;
-            write_page(root)
-        }
-        Mode::Check => {
-            let differing = differences(&kept(root)?, &run::all(root)?);
-            if differing.is_empty() {
-                return check_page(root);
-            }
-            Err(TaskError::Failed(differing.join("\n")))
-        }
+impl Report for Damping {
+    fn abilities(&self) -> Abilities {
+        Abilities::of("damping")
     }
-}
 
-fn write_page(root: &Path) -> Result<(), TaskError> {
-    task::write(&root.join(PAGE), &page::markdown(&kept(root)?))
-}
-
-fn check_page(root: &Path) -> Result<(), TaskError> {
-    if task::read(&root.join(PAGE))? == page::markdown(&kept(root)?) {
-        return Ok(());
+    fn found(&self, runs: Runs) -> Result<Found, TaskError> {
+        let rows = row::to_csv(&run::all(&runs)?);
+        Ok(Found { tables: vec![Table { path: DATA.to_owned(), rows, differences }], files: Vec::new() })
     }
-    Err(TaskError::Failed(format!("{PAGE} does not say what {DATA} says; `cargo xtask damping --mode page`")))
+
+    fn pages(&self, root: &Path) -> Result<Vec<File>, TaskError> {
+        Ok(vec![(PAGE.to_owned(), page::text(&kept(root)?))])
+    }
 }
 
 fn kept(root: &Path) -> Result<Vec<Row>, TaskError> {
-    Csv::read(&root.join(DATA))?.rows().map(|values| Row::read(&values)).collect()
+    Csv::read_as(&root.join(DATA), |row| Row::read(&row))
 }
 
-/// Rows that are not what was kept.
-fn differences(kept: &[Row], found: &[Row]) -> Vec<String> {
-    let difference = |found: &Row| match kept.iter().find(|row| row.is_run_of(found)) {
-        None => Some(format!("{} is not in {DATA}", found.shown())),
-        Some(kept) if kept.agrees_with(found) => None,
-        Some(kept) => Some(format!("found  {}\nkept   {}", found.shown(), kept.shown())),
-    };
-    let mut all: Vec<String> = found.iter().filter_map(difference).collect();
-    let lost = kept.iter().filter(|row| !found.iter().any(|found| found.is_run_of(row)));
-    all.extend(lost.map(|row| format!("{} is in {DATA} alone", row.shown())));
-    all
+/// Numbers to three digits; errors below a millionth are round-off of the bounds.
+fn differences(kept: &Csv, found: &Csv) -> Result<Vec<String>, TaskError> {
+    let number = Tolerance { part: 1e-3, least: 1e-6 };
+    let columns = [
+        ("spectral_radius", EXACT),
+        ("second_difference", number),
+        ("displacement_error", number),
+        ("force_error", number),
+    ];
+    kept::differences(&["case", "run"], &columns, kept, found)
 }
 
 #[cfg(test)]
@@ -81,9 +69,8 @@ mod tests {
     }
 
     #[test]
-    fn the_page_is_that_of_the_data() {
+    fn every_run_of_every_case_has_a_row() {
         let root = workspace_root();
-        check_page(root).expect("the shipped page");
         let rows = kept(root).expect("the shipped rows");
         let names: Vec<_> = rows.iter().map(|row| (row.case.as_str(), row.radius)).collect();
         assert_eq!(names, wanted().collect::<Vec<_>>());
@@ -105,23 +92,5 @@ mod tests {
             assert!(default.displacement_error <= 1.2 * undamped.displacement_error, "{}", case.name);
             assert!(default.force_error <= undamped.force_error, "{}", case.name);
         }
-    }
-
-    #[test]
-    fn a_row_that_changed_appeared_or_went_is_told() {
-        let row = |radius, second_difference| Row {
-            case: "flap".to_owned(),
-            radius,
-            value: 0.5,
-            second_difference: Some(second_difference),
-            displacement_error: 0.1,
-            force_error: Some(0.2),
-        };
-        let kept = [row(Radius::Default, 1.0)];
-        assert_eq!(differences(&kept, &[row(Radius::Default, 1.000_01)]), Vec::<String>::new());
-        assert_eq!(differences(&kept, &[row(Radius::Default, 1.01)]).len(), 1);
-        assert_eq!(differences(&kept, &[row(Radius::Given(0.5), 1.0)]).len(), 2);
-        assert_eq!(differences(&kept, &[Row { force_error: None, ..row(Radius::Default, 1.0) }]).len(), 1);
-        assert_eq!(differences(&kept, &[Row { value: 0.6, ..row(Radius::Default, 1.0) }]).len(), 1);
     }
 }

@@ -6,7 +6,9 @@ mod page;
 use std::path::Path;
 
 use crate::csv::Csv;
-use crate::options::{Mode, Options};
+use crate::kept::{self, COUNT, EXACT, Tolerance};
+use crate::options::Abilities;
+use crate::report::{File, Found, Report};
 use crate::reproduce::case::{Case, product};
 use crate::reproduce::claims::{CLAIMS, word};
 use crate::reproduce::counts::{Count, deviation};
@@ -14,36 +16,43 @@ use crate::reproduce::facts::Facts;
 use crate::reproduce::published::Published;
 use crate::reproduce::results;
 use crate::reproduce::setting::{Limits, Setting};
-use crate::reproduce::study::{Study, carry_out};
-use crate::reproduce::workshop::Workshop;
-use crate::task::{self, TaskError};
+use crate::reproduce::study::{Study, carry_out_all};
+use crate::runs::Runs;
+use crate::task::TaskError;
 
-/// The task as its options say.
-pub(crate) fn run(root: &Path, options: &Options) -> Result<(), TaskError> {
-    let mode = options.mode.unwrap_or(Mode::Write);
-    match mode {
-        Mode::Check => return page::check(root),
-        Mode::Page => return page::write(root),
-        Mode::Write | Mode::Print => {}
+/// The scenes with one thing changed at a time.
+pub(crate) struct Infer;
+
+impl Report for Infer {
+    fn abilities(&self) -> Abilities {
+        Abilities::of("infer")
     }
-    let workshop = Workshop::open(root, options.jobs, !options.fresh)?;
-    let published = Published::read(root)?;
-    let mut table = table();
-    for case in Case::ALL {
-        let choices = neighbours::all(root, &workshop.supplies(), case)?;
-        let studies: Vec<Study> = choices.iter().map(|choice| study(case, choice.keys.clone())).collect();
-        let (found, spent) = carry_out(&workshop, &studies)?;
-        eprintln!("{}: {} runs done, {:.0} s of processor time", case.short(), spent.done, spent.cpu_seconds);
-        for (choice, facts) in choices.iter().zip(&found) {
-            table.push(row(case, &choice.label, facts, published.of(case)));
+
+    fn found(&self, runs: Runs) -> Result<Found, TaskError> {
+        let published = Published::read(&runs.root)?;
+        let mut table = table();
+        for case in Case::ALL {
+            let choices = neighbours::all(&runs.root, &runs.supplies(), case)?;
+            let studies: Vec<Study> = choices.iter().map(|choice| study(case, choice.keys.clone())).collect();
+            for (choice, facts) in choices.iter().zip(&carry_out_all(&runs, &studies)?) {
+                table.push(row(case, &choice.label, facts, published.of(case)));
+            }
         }
+        Ok(Found { tables: vec![results::table(page::RESULTS, table, differences)], files: Vec::new() })
     }
-    if mode == Mode::Print {
-        print!("{}", table.to_text());
-        return Ok(());
+
+    fn pages(&self, root: &Path) -> Result<Vec<File>, TaskError> {
+        Ok(vec![(page::FILE.to_owned(), page::text(root)?)])
     }
-    task::write(&results::folder(root).join(page::RESULTS), &table.to_text())?;
-    page::write(root)
+}
+
+/// Deviations are parts of counts; how many of them are small follows from these.
+fn differences(kept: &Csv, found: &Csv) -> Result<Vec<String>, TaskError> {
+    let part = Tolerance { part: 0.0, least: COUNT.part };
+    let columns = [("counts", EXACT), ("worst", part), ("predicted", EXACT), ("prediction_error", part)];
+    let claims = CLAIMS.iter().map(|claim| (claim.id, EXACT));
+    let columns: Vec<_> = columns.into_iter().chain(claims).collect();
+    kept::differences(&["case", "configuration"], &columns, kept, found)
 }
 
 /// Limits 1, 2, 3 and inf of both fields and table 3.

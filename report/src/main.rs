@@ -9,113 +9,174 @@
 mod accuracy;
 mod benchmark;
 mod beyond;
+mod cache;
+mod channel_mesh;
 mod csv;
 mod damping;
 mod effects;
 #[cfg(test)]
 mod figures;
 mod infer;
+mod kept;
+mod markdown;
 mod options;
 mod performance;
-mod picture;
+mod program;
+mod report;
 mod reproduce;
-mod selection;
+mod run;
+mod runs;
 mod sensitivity;
+mod snapshot;
 mod stability;
-mod stretch;
 mod task;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use clap::{Parser, Subcommand};
+
 use options::Options;
+use report::carry_out;
 use task::{TaskError, workspace_root};
 
-const USAGE: &str = "\
-Usage: cargo xtask <task>
+/// Repeat the published runs, and write the pages and pictures about them.
+///
+/// All tasks have the same modes. A run is remembered by the program, its scene and its settings, and not done again.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", arg_required_else_help = true)]
+#[command(
+    after_help = "Exit codes: 0 done; 1 a run failed, or data and pages differ; 2 the command line is wrong."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
 
-Tasks:
-  reproduce              run the paper's tables, write paper/results and docs/reproduction.md
-    --table 1|2|3        only the runs of this table
-    --quick              only the first steps at a few settings, beside the counts they had before
-    --mode MODE          write (default), check: run nothing, fail if a page differs from the results, print, or
-                         page: write pages and figures from the results, running only the two snapshots
-                         (with --quick: check is the default, write keeps the counts)
-    --jobs N             runs at a time (default: as many as there are cores)
-    --fresh              run again what is remembered
-  benchmark [CASE]...    run published benchmarks on all levels and compare with docs/data/benchmarks.csv
-    --level L            only this level, 1 is the coarsest
-    --mode MODE          check (default), write: keep the results, write docs/benchmarks.md and its pictures, or page:
-                         run nothing, write page and pictures from the data
-  performance            time the fluid's parts and whole steps, write docs/data/performance.csv and docs/performance.md
-    --largest DOFS       leave out sizes of more unknowns, such as 100000
-    --mode MODE          write (default), or check: measure nothing, fail where the page differs from the data
-  effects                run the beam in channel flow with effects switched on one by one, and without each of them
-    --mode MODE          check (default): counts and errors as in docs/data/effects.csv, or write that and docs/effects.md
-  damping                run a few scenes at several spectral radii of the structure's time scheme
-    --mode MODE          check (default): oscillations and errors as in docs/data/damping.csv, write: keep them and write
-                         docs/damping.md, or page: write that alone
-  accuracy [STUDY]...    run the studies of accuracy against time (studies/), or some of them
-    --mode MODE          check (default): errors as in docs/data/accuracy.csv, or write that, docs/accuracy.md and its
-                         pictures, or page: run nothing, write page and pictures from the data
-  stability [MAP]...     run the maps of what converges, compare with docs/data/stability_*.csv
-    --mode MODE          check (default), write: keep the tables, write docs/stability.md and its pictures, or page:
-                         run nothing, write page and pictures from the tables
-  infer                  how far the counts depend on what the paper does not give (paper/inference.md); options
-                         --mode, --jobs and --fresh as above
-  sensitivity            judge the claims on cases with other values, write paper/results/sensitivity.csv
-  beyond                 run tables 1 and 2 with quadratic convergence, write docs/beyond-the-paper.md
-  check                  run nothing but the first steps of the paper's cases; fail where a page differs from its data
-";
-
-type Task = fn(&Path) -> Result<(), TaskError>;
-
-const CHECKS: [(&str, Task); 4] = [
-    ("the pages of cargo xtask reproduce", reproduce::check_pages),
-    ("docs/accuracy.md against docs/data/accuracy.csv", accuracy::check_pages),
-    ("the page of cargo xtask stability", stability::check_page),
-    ("cargo xtask reproduce --quick", reproduce::quick),
-];
+#[derive(Debug, Subcommand)]
+enum Task {
+    /// Run the paper's tables: paper/results, docs/reproduction.md
+    Reproduce(reproduce::Arguments),
+    /// Judge the paper's claims on cases with other values: a section of docs/reproduction.md
+    Sensitivity(Options),
+    /// Measure how far the counts depend on what the paper does not give: docs/inference.md
+    Infer(Options),
+    /// Run tables 1 and 2 with quadratic convergence: docs/beyond-the-paper.md
+    Beyond(Options),
+    /// Run published benchmarks level by level: docs/benchmarks.md
+    Benchmark(benchmark::Arguments),
+    /// Run the studies of accuracy against time: docs/accuracy.md
+    Accuracy(accuracy::Arguments),
+    /// Run the maps of what converges: docs/stability.md
+    Stability(stability::Arguments),
+    /// Run the beam in channel flow with effects switched on one by one, and without each of them: docs/effects.md
+    Effects(Options),
+    /// Run a few scenes at several spectral radii of the structure's time scheme: docs/damping.md
+    Damping(Options),
+    /// Time the fluid's parts and whole steps: docs/performance.md
+    Performance(performance::Arguments),
+    /// Check every page against its data, and the first steps of the paper's cases against their counts
+    Check {
+        /// Start this program instead of building `partita` in the profile of this one
+        #[arg(long, value_name = "PATH")]
+        program: Option<PathBuf>,
+    },
+}
 
 fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    match dispatch(&arguments) {
+    match dispatch(workspace_root(), &Arguments::parse().task) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("report: {error}");
-            ExitCode::from(if matches!(error, TaskError::Usage { .. }) { 2 } else { 1 })
+            ExitCode::from(if matches!(error, TaskError::Refused { .. }) { 2 } else { 1 })
         }
     }
 }
 
-fn dispatch(arguments: &[&str]) -> Result<(), TaskError> {
-    let root = workspace_root();
-    match arguments {
-        ["reproduce", options @ ..] => reproduce::run(root, &Options::parse("reproduce", options)?),
-        ["benchmark", options @ ..] => benchmark::run(root, options),
-        ["performance", options @ ..] => performance::run(root, options),
-        ["effects", options @ ..] => effects::run(root, options),
-        ["damping", options @ ..] => damping::run(root, options),
-        ["accuracy", options @ ..] => accuracy::run(root, options),
-        ["stability", options @ ..] => stability::run(root, options),
-        ["infer", options @ ..] => infer::run(root, &Options::parse("infer", options)?),
-        ["sensitivity", options @ ..] => sensitivity::run(root, &Options::parse("sensitivity", options)?),
-        ["beyond", options @ ..] => beyond::run(root, &Options::parse("beyond", options)?),
-        ["check"] => check(root),
-        ["help" | "--help" | "-h"] => {
-            print!("{USAGE}");
-            Ok(())
+fn dispatch(root: &Path, task: &Task) -> Result<(), TaskError> {
+    match task {
+        Task::Reproduce(arguments) => reproduce::run(root, arguments),
+        Task::Sensitivity(options) => carry_out(root, &sensitivity::Sensitivity, options),
+        Task::Infer(options) => carry_out(root, &infer::Infer, options),
+        Task::Beyond(options) => carry_out(root, &beyond::Beyond, options),
+        Task::Benchmark(arguments) => benchmark::run(root, arguments),
+        Task::Accuracy(arguments) => accuracy::run(root, arguments),
+        Task::Stability(arguments) => stability::run(root, arguments),
+        Task::Effects(options) => carry_out(root, &effects::Effects, options),
+        Task::Damping(options) => carry_out(root, &damping::Damping, options),
+        Task::Performance(arguments) => performance::run(root, arguments),
+        Task::Check { program } => {
+            check_pages(root)?;
+            println!("== cargo xtask reproduce --quick");
+            carry_out(root, &reproduce::Quick, &Options::with(program.clone()))
         }
-        _ => Err(TaskError::Usage { given: arguments.join(" "), usage: USAGE }),
     }
 }
 
-/// What CI checks: the pages against what they tell of, and the first steps of the paper's cases.
-fn check(root: &Path) -> Result<(), TaskError> {
-    for (line, task) in CHECKS {
-        println!("== {line}");
-        task(root)?;
+/// All pages against the data they are made of.
+fn check_pages(root: &Path) -> Result<(), TaskError> {
+    type Check = fn(&Path) -> Result<(), TaskError>;
+    let checks: [(&str, Check); 9] = [
+        ("reproduction", |root| report::check(root, &reproduce::Tables::default())),
+        ("inference", |root| report::check(root, &infer::Infer)),
+        ("beyond the paper", |root| report::check(root, &beyond::Beyond)),
+        ("benchmarks", benchmark::check),
+        ("accuracy", |root| report::check(root, &accuracy::Accuracy::all())),
+        ("stability", |root| report::check(root, &stability::Stability::default())),
+        ("effects", |root| report::check(root, &effects::Effects)),
+        ("damping", |root| report::check(root, &damping::Damping)),
+        ("performance", |root| report::check(root, &performance::Performance::default())),
+    ];
+    for (page, check) in checks {
+        println!("== page of {page}");
+        check(root)?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nobody has edited a page or its data without the other.
+    #[test]
+    fn every_page_is_that_of_its_data() {
+        check_pages(workspace_root()).expect("the shipped pages");
+    }
+
+    fn refusal(line: &str) -> String {
+        let words = std::iter::once("cargo xtask").chain(line.split_whitespace());
+        match Arguments::try_parse_from(words) {
+            Err(error) => {
+                assert_eq!(error.exit_code(), 2, "{line}");
+                error.to_string()
+            }
+            Ok(arguments) => match dispatch(workspace_root(), &arguments.task) {
+                Err(error @ TaskError::Refused { .. }) => error.to_string(),
+                other => panic!("{line}: {other:?}"),
+            },
+        }
+    }
+
+    #[test]
+    fn what_a_task_does_not_do_is_refused_before_anything_runs() {
+        for (line, reason) in [
+            ("reproduce --table 4", "4 is not in 1..=3"),
+            ("reproduce --table 1 --quick", "cannot be used with"),
+            ("reproduce --quick --mode page", "reproduce --quick has no page"),
+            ("benchmark csm9", "no case `csm9`"),
+            ("benchmark csm1 --level 0", "0 is not in 1.."),
+            ("benchmark csm1 --level 77", "csm1 has no such level"),
+            ("accuracy csm2", "invalid value 'csm2'"),
+            ("stability tanks", "invalid value 'tanks'"),
+            ("effects --jobs 2", "one run goes at a time"),
+            ("performance --mode compare", "no other run repeats"),
+            ("infer --mode check --fresh", "--fresh asks for runs"),
+            ("damping --mode print", "invalid value 'print'"),
+            ("sensitivity --table 1", "unexpected argument '--table'"),
+        ] {
+            let message = refusal(line);
+            assert!(message.contains(reason), "{line}: {message}");
+        }
+    }
 }

@@ -1,105 +1,168 @@
-//! The words behind a task.
+//! The options that all tasks have.
 
-use crate::USAGE;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
 use crate::task::TaskError;
 
-/// What to do with pages and results.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What becomes of the runs and of the pages about them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Mode {
-    /// Do the runs and write results and pages.
+    /// Run, keep the data, and write page and pictures
     Write,
-    /// Do no runs; fail where a page differs from the results.
-    Check,
-    /// Do the runs, show what came of them, write nothing.
-    Print,
-    /// Write the pages and figures from the results that are kept.
+    /// Run and compare with the data that is kept; write nothing, fail where they differ
+    Compare,
+    /// Run nothing; write page and pictures from the data
     Page,
+    /// Run nothing and write nothing; fail where page or pictures differ from the data
+    Check,
 }
 
-/// How a task that runs scenes is done.
-#[derive(Debug, Clone, PartialEq, Eq)]
+impl Mode {
+    fn runs(self) -> bool {
+        matches!(self, Self::Write | Self::Compare)
+    }
+}
+
+/// How a task is done.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
 pub(crate) struct Options {
-    /// Of the paper's tables; `None` is all.
-    pub(crate) table: Option<usize>,
-    pub(crate) quick: bool,
-    /// `None` where the command line does not say.
-    pub(crate) mode: Option<Mode>,
-    /// Runs at a time.
-    pub(crate) jobs: usize,
-    /// Do again what is remembered.
+    /// What to do with runs, data and pages [default: write]
+    #[arg(long, value_enum)]
+    mode: Option<Mode>,
+    /// Number of runs at a time; it does not affect the results [default: number of processors]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// Run again what is remembered from an earlier task
+    #[arg(long)]
     pub(crate) fresh: bool,
+    /// Start this program instead of building `partita` in the profile of this one
+    #[arg(long, value_name = "PATH")]
+    pub(crate) program: Option<PathBuf>,
+}
+
+/// What a task does of all that its options could ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Abilities {
+    /// Its name on the command line.
+    pub(crate) task: &'static str,
+    /// Where it measures times, each run has the machine to itself.
+    pub(crate) measures_time: bool,
+    /// Whether it has numbers that come out again.
+    pub(crate) compares: bool,
+    /// Whether there is a page made of its data.
+    pub(crate) has_page: bool,
+    pub(crate) default: Mode,
+}
+
+impl Abilities {
+    /// A task with a page, whose runs can go side by side and come out again.
+    pub(crate) const fn of(task: &'static str) -> Self {
+        Self { task, measures_time: false, compares: true, has_page: true, default: Mode::Write }
+    }
 }
 
 impl Options {
-    /// Reads `--table N --quick --mode M --jobs N --fresh`, each at most once, in any order.
-    pub(crate) fn parse(task: &str, words: &[&str]) -> Result<Self, TaskError> {
-        let wrong = || TaskError::Usage { given: format!("{task} {}", words.join(" ")), usage: USAGE };
-        let cores = std::thread::available_parallelism().map_or(1, Into::into);
-        let mut options = Self { table: None, quick: false, mode: None, jobs: cores, fresh: false };
-        let mut seen = Vec::new();
-        let mut rest = words.iter();
-        while let Some(&word) = rest.next() {
-            if seen.contains(&word) {
-                return Err(wrong());
-            }
-            seen.push(word);
-            let mut value = || rest.next().copied().ok_or_else(wrong);
-            match word {
-                "--quick" => options.quick = true,
-                "--fresh" => options.fresh = true,
-                "--table" => match value()? {
-                    number @ ("1" | "2" | "3") => options.table = number.parse().ok(),
-                    _ => return Err(wrong()),
-                },
-                "--jobs" => {
-                    let jobs = value()?.parse().ok().filter(|jobs| *jobs > 0);
-                    options.jobs = jobs.ok_or_else(wrong)?;
-                }
-                "--mode" => {
-                    options.mode = Some(match value()? {
-                        "write" => Mode::Write,
-                        "check" => Mode::Check,
-                        "print" => Mode::Print,
-                        "page" if matches!(task, "reproduce" | "beyond" | "infer") => Mode::Page,
-                        _ => return Err(wrong()),
-                    });
-                }
-                _ => return Err(wrong()),
+    /// All defaults, with this program.
+    pub(crate) fn with(program: Option<PathBuf>) -> Self {
+        Self { program, ..Self::default() }
+    }
+
+    /// The mode, once everything has been refused that the task does not do.
+    pub(crate) fn mode(&self, abilities: &Abilities) -> Result<Mode, TaskError> {
+        let Abilities { task, measures_time, compares, has_page, default } = *abilities;
+        let refused = |what: String, hint: &str| Err(TaskError::Refused { what, hint: hint.to_owned() });
+        let mode = self.mode.unwrap_or(default);
+        if mode == Mode::Compare && !compares {
+            let what =
+                format!("{task} measures times, which no other run repeats: --mode compare is not for it");
+            return refused(what, "use write, page or check");
+        }
+        if !mode.runs() && !has_page {
+            return refused(format!("{task} has no page"), "use --mode write or --mode compare");
+        }
+        let of_runs =
+            [(self.fresh, "--fresh"), (self.jobs.is_some(), "--jobs"), (self.program.is_some(), "--program")];
+        for (given, option) in of_runs {
+            if given && !mode.runs() {
+                return refused(
+                    format!("{option} asks for runs, and this mode runs nothing"),
+                    "leave it out",
+                );
             }
         }
-        // The quick runs are on no page.
-        if options.quick && options.mode == Some(Mode::Page) { Err(wrong()) } else { Ok(options) }
+        if self.jobs.is_some() && measures_time {
+            let what = format!("{task} measures times, so that one run goes at a time: --jobs is not for it");
+            return refused(what, "leave it out");
+        }
+        Ok(mode)
+    }
+
+    /// Runs at a time.
+    pub(crate) fn jobs(&self, abilities: &Abilities) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, Into::into);
+        if abilities.measures_time { 1 } else { self.jobs.map_or_else(cores, Into::into) }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clap::Parser;
 
-    #[test]
-    fn options_are_read_in_any_order() {
-        let options =
-            Options::parse("reproduce", &["--jobs", "3", "--table", "2", "--mode", "check", "--fresh"]);
-        let expected =
-            Options { table: Some(2), quick: false, mode: Some(Mode::Check), jobs: 3, fresh: true };
-        assert_eq!(options.expect("sound"), expected);
-        let plain = Options::parse("reproduce", &["--quick"]).expect("sound");
-        assert!(plain.quick && plain.mode.is_none() && plain.table.is_none() && plain.jobs > 0);
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        options: Options,
+    }
+
+    const TABLES: Abilities = Abilities::of("tables");
+
+    fn mode(abilities: &Abilities, line: &str) -> Result<Mode, String> {
+        let words = std::iter::once("task").chain(line.split_whitespace());
+        let line = Line::try_parse_from(words).map_err(|error| error.to_string())?;
+        line.options.mode(abilities).map_err(|error| error.to_string())
     }
 
     #[test]
-    fn what_is_not_an_option_is_refused() {
-        for words in [
-            &["--table", "4"][..],
-            &["--table"],
-            &["--jobs", "0"],
-            &["--mode", "maybe"],
-            &["--quick", "--quick"],
-            &["quick"],
-            &["--quick", "--mode", "page"],
+    fn every_mode_is_known_and_a_task_writes_unless_told_otherwise() {
+        assert_eq!(mode(&TABLES, ""), Ok(Mode::Write));
+        for (line, expected) in [
+            ("--mode write --jobs 3 --fresh", Mode::Write),
+            ("--fresh --jobs 3 --mode compare", Mode::Compare),
+            ("--mode page", Mode::Page),
+            ("--mode check", Mode::Check),
         ] {
-            assert!(Options::parse("reproduce", words).is_err(), "{words:?}");
+            assert_eq!(mode(&TABLES, line), Ok(expected), "{line}");
         }
-        assert!(Options::parse("sensitivity", &["--mode", "page"]).is_err(), "it has no page");
+        let quick = Abilities { default: Mode::Compare, ..TABLES };
+        assert_eq!(mode(&quick, ""), Ok(Mode::Compare));
+    }
+
+    #[test]
+    fn what_does_not_apply_is_refused_with_the_reason() {
+        let times = Abilities { measures_time: true, compares: false, ..TABLES };
+        let pageless = Abilities { has_page: false, ..TABLES };
+        for (abilities, line, reason) in [
+            (&TABLES, "--mode print", "invalid value 'print'"),
+            (&TABLES, "--jobs 0", "invalid value '0'"),
+            (&TABLES, "--mode page --fresh", "--fresh asks for runs"),
+            (&TABLES, "--mode check --jobs 2", "--jobs asks for runs"),
+            (&times, "--mode compare", "no other run repeats"),
+            (&times, "--jobs 2", "one run goes at a time"),
+            (&pageless, "--mode page", "tables has no page"),
+        ] {
+            let message = mode(abilities, line).expect_err(line);
+            assert!(message.contains(reason), "{line}: {message}");
+        }
+    }
+
+    #[test]
+    fn times_are_measured_one_at_a_time() {
+        let line = Line::try_parse_from(["task", "--jobs", "7"]).expect("sound");
+        assert_eq!(line.options.jobs(&TABLES), 7);
+        assert_eq!(line.options.jobs(&Abilities { measures_time: true, ..TABLES }), 1);
     }
 }

@@ -1,119 +1,85 @@
-//! The paper's tables, figures and claims, repeated with the release binary.
-//!
-//! A run is a scene and settings on its command line; what comes back is the `summary.json` of its output folder.
+//! The paper's tables, figures and claims, repeated.
 
 pub(crate) mod case;
 pub(crate) mod claims;
 pub(crate) mod cost;
 pub(crate) mod counts;
 pub(crate) mod facts;
-pub(crate) mod heat_map;
-pub(crate) mod markdown;
 mod page;
 pub(crate) mod published;
 mod quick;
 pub(crate) mod results;
-pub(crate) mod run;
 pub(crate) mod setting;
 pub(crate) mod study;
 mod substitutes;
-pub(crate) mod workshop;
 
 use std::path::Path;
 
-use crate::options::{Mode, Options};
-use crate::picture;
-use crate::task::{self, TaskError};
+use clap::Args;
+
+use crate::options::{Abilities, Mode, Options};
+use crate::report::{File, Found, Report, carry_out};
+use crate::runs::Runs;
+use crate::snapshot;
+use crate::task::TaskError;
 use case::Case;
-use facts::Facts;
 use page::Page;
 use published::Published;
-use study::{Study, carry_out};
-use workshop::{Spent, Workshop};
+pub(crate) use quick::Quick;
+use study::{Study, carry_out_all};
 
-/// The task as its options say.
-pub(crate) fn run(root: &Path, options: &Options) -> Result<(), TaskError> {
-    if options.quick {
-        let workshop = Workshop::open(root, options.jobs, false)?;
-        return quick::run(root, &workshop, options.mode.unwrap_or(Mode::Check));
+/// What stands behind `reproduce`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Only the runs of one of the paper's tables
+    #[arg(long, value_name = "1|2|3", value_parser = clap::value_parser!(u8).range(1..=3))]
+    table: Option<u8>,
+    /// Only the first steps at a few settings; modes compare (default) and write, for paper/results/quick.csv
+    #[arg(long, conflicts_with = "table")]
+    quick: bool,
+    #[command(flatten)]
+    options: Options,
+}
+
+/// The tables to be repeated.
+#[derive(Debug, Default)]
+pub(crate) struct Tables {
+    /// One of them; `None` is all.
+    only: Option<u8>,
+}
+
+/// The task as its arguments say.
+pub(crate) fn run(root: &Path, arguments: &Arguments) -> Result<(), TaskError> {
+    if arguments.quick {
+        return carry_out(root, &Quick, &arguments.options);
     }
-    match options.mode.unwrap_or(Mode::Write) {
-        Mode::Check => check_pages(root),
-        Mode::Write => {
-            let workshop = Workshop::open(root, options.jobs, !options.fresh)?;
-            let (ours, spent) = tables(root, &workshop, options)?;
-            picture::write_all(root, &workshop)?;
-            let published = Published::read(root)?;
-            results::write(root, &ours, &published)?;
-            print!("{}", write_pages(root)?.summary());
-            say(spent);
-            Ok(())
+    carry_out(root, &Tables { only: arguments.table }, &arguments.options)
+}
+
+impl Report for Tables {
+    fn abilities(&self) -> Abilities {
+        Abilities::of("reproduce")
+    }
+
+    /// Runs the tables asked for; the other results stay as they are.
+    fn found(&self, runs: Runs) -> Result<Found, TaskError> {
+        let wanted = |table: u8| self.only.is_none_or(|only| only == table);
+        let grids = Case::ALL.into_iter().filter(|case| wanted(case.table())).map(Study::of_table);
+        let adaptive = Case::ALL.into_iter().filter(|_| wanted(3)).map(Study::of_adaptive);
+        let studies: Vec<Study> = grids.chain(adaptive).collect();
+        let mut ours = results::read(&runs.root)?;
+        for facts in carry_out_all(&runs, &studies)? {
+            ours[facts.case as usize].take(facts);
         }
-        Mode::Page => {
-            picture::write_all(root, &Workshop::open(root, options.jobs, true)?)?;
-            write_pages(root).map(drop)
-        }
-        Mode::Print => {
-            let workshop = Workshop::open(root, options.jobs, !options.fresh)?;
-            let (ours, spent) = tables(root, &workshop, options)?;
-            let page = Page::new(root, Published::read(root)?, ours)?;
-            print!("{}", page.text());
-            say(spent);
-            Ok(())
-        }
+        let tables = results::tables(&ours, &Published::read(&runs.root)?);
+        Ok(Found { tables, files: snapshot::all(&runs)? })
+    }
+
+    fn pages(&self, root: &Path) -> Result<Vec<File>, TaskError> {
+        Ok(Page::read(root)?.files())
     }
 }
 
-/// Writes pages, figures and the verdict on each claim, from the results.
-fn write_pages(root: &Path) -> Result<Page, TaskError> {
-    let page = Page::read(root)?;
-    results::write_claims(root, page.judged())?;
-    for (path, text) in page.files() {
-        task::write(&root.join(path), &text)?;
-    }
-    Ok(page)
-}
-
-/// What CI runs: the first steps, one and several at a time.
-pub(crate) fn quick(root: &Path) -> Result<(), TaskError> {
-    run(root, &Options::parse("reproduce", &["--quick"])?)
-}
-
-/// Fails where a page or figure differs from what the results give.
-pub(crate) fn check_pages(root: &Path) -> Result<(), TaskError> {
-    let page = Page::read(root)?;
-    let claims = results::claims_table(page.judged()).to_text();
-    let files = page.files().into_iter().chain([("paper/results/claims.csv".to_owned(), claims)]);
-    let differing: Vec<String> = files
-        .filter(|(path, text)| task::read(&root.join(path)).ok().as_ref() != Some(text))
-        .map(|(path, _)| path)
-        .collect();
-    if differing.is_empty() {
-        return Ok(());
-    }
-    Err(TaskError::Failed(format!(
-        "these do not say what paper/results says: {}\nhint: `cargo xtask reproduce` writes them",
-        differing.join(", ")
-    )))
-}
-
-/// Runs the tables asked for; the other results stay as they are.
-fn tables(root: &Path, workshop: &Workshop<'_>, options: &Options) -> Result<([Facts; 2], Spent), TaskError> {
-    let wanted = |table: usize| options.table.is_none_or(|only| only == table);
-    let grids = Case::ALL.into_iter().filter(|case| wanted(case.table())).map(Study::of_table);
-    let adaptive = Case::ALL.into_iter().filter(|_| wanted(3)).map(Study::of_adaptive);
-    let studies: Vec<Study> = grids.chain(adaptive).collect();
-    let (found, spent) = carry_out(workshop, &studies)?;
-    let mut ours = results::read(root)?;
-    for facts in found {
-        ours[facts.case as usize].take(facts);
-    }
-    Ok((ours, spent))
-}
-
-fn say(spent: Spent) {
-    let Spent { done, wall_seconds, cpu_seconds } = spent;
-    eprintln!(
-        "{done} runs done, the others remembered: {wall_seconds:.1} s, {cpu_seconds:.1} s of processor time"
-    );
-}
+/// `--quick`.
+pub(crate) const QUICK: Abilities =
+    Abilities { has_page: false, default: Mode::Compare, ..Abilities::of("reproduce --quick") };

@@ -5,16 +5,19 @@ use std::path::Path;
 use crate::csv::Csv;
 use crate::infer::claim_words;
 use crate::infer::neighbours::{Choice, thickness, viscosity, young};
-use crate::options::{Mode, Options};
+use crate::kept::{self, COUNT, EXACT};
+use crate::markdown::prose_table;
+use crate::options::Abilities;
+use crate::report::{File, Found, Report};
+use crate::reproduce::Tables;
 use crate::reproduce::case::Case;
 use crate::reproduce::claims::CLAIMS;
 use crate::reproduce::facts::Facts;
-use crate::reproduce::markdown::prose_table;
 use crate::reproduce::results;
 use crate::reproduce::setting::{Adaptive, Setting};
-use crate::reproduce::study::{Study, carry_out};
-use crate::reproduce::workshop::Workshop;
-use crate::task::{self, TaskError};
+use crate::reproduce::study::{Study, carry_out_all};
+use crate::runs::Runs;
+use crate::task::TaskError;
 
 const RESULTS: &str = "sensitivity.csv";
 
@@ -51,38 +54,51 @@ fn ratios(case: Case) -> [f64; 3] {
     }
 }
 
-/// The task as its options say.
-pub(crate) fn run(root: &Path, options: &Options) -> Result<(), TaskError> {
-    let workshop = Workshop::open(root, options.jobs, !options.fresh)?;
-    let mut table = table();
-    for case in Case::ALL {
-        let mut cases = Vec::new();
-        let mut studies = Vec::new();
-        for variant in variants(root, &workshop.supplies(), case)? {
-            for ratio in ratios(case) {
-                let mut keys = variant.keys.clone();
-                keys.push(format!("structure.density={:?}", case.fluid_density() / ratio));
-                studies.push(Study::small(case, keys));
-                cases.push((variant.label.clone(), ratio));
+/// The claims on other cases.
+pub(crate) struct Sensitivity;
+
+impl Report for Sensitivity {
+    fn abilities(&self) -> Abilities {
+        Abilities::of("sensitivity")
+    }
+
+    fn found(&self, runs: Runs) -> Result<Found, TaskError> {
+        let mut table = table();
+        for case in Case::ALL {
+            let mut cases = Vec::new();
+            let mut studies = Vec::new();
+            for variant in variants(&runs.root, &runs.supplies(), case)? {
+                for ratio in ratios(case) {
+                    let mut keys = variant.keys.clone();
+                    keys.push(format!("structure.density={:?}", case.fluid_density() / ratio));
+                    studies.push(Study::small(case, keys));
+                    cases.push((variant.label.clone(), ratio));
+                }
+            }
+            for ((label, ratio), facts) in cases.iter().zip(&carry_out_all(&runs, &studies)?) {
+                table.push(row(case, label, *ratio, facts));
             }
         }
-        let (found, spent) = carry_out(&workshop, &studies)?;
-        eprintln!("{}: {} runs done, {:.0} s of processor time", case.short(), spent.done, spent.cpu_seconds);
-        for ((label, ratio), facts) in cases.iter().zip(&found) {
-            table.push(row(case, label, *ratio, facts));
-        }
+        Ok(Found { tables: vec![results::table(RESULTS, table, differences)], files: Vec::new() })
     }
-    if options.mode == Some(Mode::Print) {
-        print!("{}", table.to_text());
-        return Ok(());
+
+    /// Its section is on the page of the reproduction.
+    fn pages(&self, root: &Path) -> Result<Vec<File>, TaskError> {
+        Tables::default().pages(root)
     }
-    task::write(&results::folder(root).join(RESULTS), &table.to_text())
+}
+
+const COUNTS: [&str; 5] = ["one_coupling", "one_newton", "inf_coupling", "inf_newton", "n1_cc_newton"];
+
+fn differences(kept: &Csv, found: &Csv) -> Result<Vec<String>, TaskError> {
+    let claims = CLAIMS.iter().map(|claim| (claim.id, EXACT));
+    let columns: Vec<_> = claims.chain(COUNTS.map(|column| (column, COUNT))).collect();
+    kept::differences(&["case", "variant", "density_ratio"], &columns, kept, found)
 }
 
 fn table() -> Csv {
     let ids = CLAIMS.iter().map(|claim| claim.id);
-    let counts = ["cheapest", "one_coupling", "one_newton", "inf_coupling", "inf_newton", "n1_cc_newton"];
-    Csv::new(["case", "variant", "density_ratio"].into_iter().chain(ids).chain(counts))
+    Csv::new(["case", "variant", "density_ratio"].into_iter().chain(ids).chain(["cheapest"]).chain(COUNTS))
 }
 
 fn row(case: Case, variant: &str, ratio: f64, facts: &Facts) -> Vec<String> {

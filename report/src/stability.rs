@@ -1,4 +1,4 @@
-//! `cargo xtask stability`: the maps of `maps/`, run with the release binary, their tables, pictures and page.
+//! `cargo xtask stability`: the maps of `maps/`, their tables, pictures and page.
 //!
 //! A map is run by `partita stability`, which counts work and not time, so that its table is the same for any number of
 //! jobs. The tables are kept in `docs/data`; the page is made from them, from the maps and from the remarks beside these.
@@ -7,100 +7,75 @@ mod compare;
 mod page;
 mod table;
 
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 
-use crate::selection::{Mode, Selection};
-use crate::task::{self, TaskError};
+use clap::Args;
+
+use crate::csv::Csv;
+use crate::options::{Abilities, Options};
+use crate::report::{File, Found, Report, carry_out};
+use crate::runs::Runs;
+use crate::task::TaskError;
 use table::{Map, Table};
 
 /// The maps in the order of the page.
 const MAPS: [&str; 6] = ["tank", "limits", "fluid", "poisson", "rotation", "swing"];
 
 const PAGE: &str = "docs/stability.md";
-/// Cells at a time.
-const JOBS: &str = "2";
 
-const USAGE: &str = "Usage: cargo xtask stability [--mode check|write|page] [MAP]...";
+/// What stands behind `stability`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Maps to run [default: all]
+    #[arg(value_name = "MAP", value_parser = MAPS)]
+    maps: Vec<String>,
+    #[command(flatten)]
+    options: Options,
+}
 
-/// Runs the maps asked for, all of them where none is, and checks or writes what comes out.
-pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), TaskError> {
-    let Selection { mode, names } = Selection::parse("stability", USAGE, &MAPS, words)?;
-    match mode {
-        Mode::Page => {}
-        Mode::Write => write(root, &names)?,
-        Mode::Check => {
-            check(root, &names)?;
-            return check_page(root);
+/// The maps to be run.
+#[derive(Default)]
+pub(crate) struct Stability {
+    maps: Vec<String>,
+}
+
+/// The task as its arguments say.
+pub(crate) fn run(root: &Path, arguments: &Arguments) -> Result<(), TaskError> {
+    carry_out(root, &Stability { maps: arguments.maps.clone() }, &arguments.options)
+}
+
+impl Report for Stability {
+    fn abilities(&self) -> Abilities {
+        Abilities::of("stability")
+    }
+
+    fn found(&self, runs: Runs) -> Result<Found, TaskError> {
+        let is_asked = |name: &&str| self.maps.is_empty() || self.maps.iter().any(|other| other == name);
+        let mut tables = Vec::new();
+        for name in MAPS.into_iter().filter(is_asked) {
+            let jobs = ["--jobs".to_owned(), runs.jobs.to_string()];
+            let rows =
+                Csv::read(&runs.sweep("stability", &format!("maps/{name}.toml"), &jobs)?.join("cells.csv"))?;
+            let differences = compare::differences;
+            tables.push(crate::report::Table { path: data(name), rows, differences });
         }
+        Ok(Found { tables, files: Vec::new() })
     }
-    for (path, text) in files(root)? {
-        task::write(&root.join(path), &text)?;
+
+    fn pages(&self, root: &Path) -> Result<Vec<File>, TaskError> {
+        let all = all(root)?;
+        let mut files = vec![(PAGE.to_owned(), page::text(&all))];
+        files.extend(
+            all.iter().map(|(map, table)| (format!("docs/{}", figure(&map.name)), table.picture(map))),
+        );
+        Ok(files)
     }
-    Ok(())
-}
-
-/// The page and the pictures, made from the tables.
-fn files(root: &Path) -> Result<Vec<(String, String)>, TaskError> {
-    let all = all(root)?;
-    let mut files = vec![(PAGE.to_owned(), page::markdown(&all))];
-    files.extend(all.iter().map(|(map, table)| (format!("docs/{}", figure(&map.name)), table.picture(map))));
-    Ok(files)
-}
-
-/// Keeps the tables of these maps.
-fn write(root: &Path, names: &[&str]) -> Result<(), TaskError> {
-    let binary = task::release_binary(root)?;
-    for name in names {
-        let folder = carry_out(root, &binary, name)?;
-        task::write(&root.join(data(name)), &task::read(&folder.join("cells.csv"))?)?;
-    }
-    Ok(())
-}
-
-/// Compares these maps with the tables kept.
-fn check(root: &Path, names: &[&str]) -> Result<(), TaskError> {
-    let binary = task::release_binary(root)?;
-    let mut faults = Vec::new();
-    for name in names {
-        let found = Table::read(&carry_out(root, &binary, name)?.join("cells.csv"))?;
-        let kept = Table::read(&root.join(data(name)))?;
-        let differences = compare::differences(&kept, &found);
-        faults.extend(differences.into_iter().map(|fault| format!("{name}: {fault}")));
-    }
-    if faults.is_empty() { Ok(()) } else { Err(TaskError::Failed(faults.join("\n"))) }
-}
-
-/// Fails where page or pictures do not say what the tables say.
-pub(crate) fn check_page(root: &Path) -> Result<(), TaskError> {
-    let differs = |(path, text): &(String, String)| task::read(&root.join(path)).ok().as_ref() != Some(text);
-    let differing: Vec<String> = files(root)?.into_iter().filter(differs).map(|(path, _)| path).collect();
-    if differing.is_empty() {
-        return Ok(());
-    }
-    Err(TaskError::Failed(format!(
-        "these do not say what tables, maps and remarks say: {}\n\
-         hint: `cargo xtask stability --mode page` writes them, `--mode write` runs the maps before that",
-        differing.join(", ")
-    )))
-}
-
-/// Runs one map anew; returns its folder.
-fn carry_out(root: &Path, binary: &Path, name: &str) -> Result<PathBuf, TaskError> {
-    let target = binary.parent().and_then(Path::parent).expect("target/release/partita");
-    let folder = target.join("stability").join(name);
-    task::remove_folder(&folder)?;
-    eprintln!("{name}");
-    let mut command = Command::new(binary);
-    command.current_dir(root).arg("stability").arg(format!("maps/{name}.toml"));
-    command.args(["--jobs", JOBS, "--out"]).arg(&folder);
-    task::run(command)?;
-    Ok(folder)
 }
 
 /// Maps, their remarks and their tables.
 fn all(root: &Path) -> Result<Vec<(Map, Table)>, TaskError> {
-    MAPS.into_iter().map(|name| Ok((Map::read(root, name)?, Table::read(&root.join(data(name)))?))).collect()
+    let read = |name| Ok((Map::read(root, name)?, Table::read(&Csv::read(&root.join(data(name)))?)?));
+    MAPS.into_iter().map(read).collect()
 }
 
 fn data(name: &str) -> String {
@@ -115,12 +90,7 @@ fn figure(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::task::workspace_root;
-
-    #[test]
-    fn the_page_is_that_of_the_tables() {
-        check_page(workspace_root()).expect("nobody has edited one without the other");
-    }
+    use crate::task::{self, workspace_root};
 
     #[test]
     fn every_shipped_map_is_on_the_page_with_a_table_of_its_cells() {
@@ -133,13 +103,6 @@ mod tests {
         for (map, table) in all(root).expect("maps and tables") {
             let cells = map.choices.len() * map.axes[0].values.len() * map.axes[1].values.len();
             assert_eq!(table.cells.len(), cells, "{}", map.name);
-        }
-    }
-
-    #[test]
-    fn words_that_are_no_map_are_refused() {
-        for words in [&["tanks"][..], &["--mode"], &["--mode", "print"]] {
-            assert!(matches!(run(workspace_root(), words), Err(TaskError::Usage { .. })), "{words:?}");
         }
     }
 }

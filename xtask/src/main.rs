@@ -20,6 +20,7 @@ Tasks:
   help                   show this, and the tasks of report
 
 Any other task is one of report:
+
 ";
 
 fn main() -> ExitCode {
@@ -29,8 +30,19 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("xtask: {error}");
-            ExitCode::from(if matches!(error, TaskError::Usage { .. }) { 2 } else { 1 })
+            ExitCode::from(code(&error))
         }
+    }
+}
+
+/// A wrong command line is 2; a program that failed has a code of its own.
+fn code(error: &TaskError) -> u8 {
+    match error {
+        TaskError::Usage { .. } => 2,
+        TaskError::Command { status, .. } => {
+            status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1)
+        }
+        _ => 1,
     }
 }
 
@@ -47,10 +59,11 @@ fn dispatch(arguments: &[&str]) -> Result<(), TaskError> {
     }
 }
 
-/// Starts a task of the program of `report/`.
+/// Starts a task of the program of `report/`. All programs are built together, as it builds the one it starts: with another
+/// selection of packages the heavy dependencies have other features, and are compiled again.
 fn report(words: &[&str]) -> Result<(), TaskError> {
-    let mut command =
-        cargo(workspace_root(), &["run", "--release", "--quiet", "--package", "partita-report", "--"]);
+    task::run(cargo(workspace_root(), &["build", "--release", "--quiet", "--workspace", "--bins"]))?;
+    let mut command = task::built("release", "partita-report")?;
     command.args(words);
     task::run(command)
 }

@@ -35,6 +35,15 @@ pub(crate) fn cargo(root: &Path, arguments: &[&str]) -> Command {
     command
 }
 
+/// A program of the workspace that was built in a profile: it lies beside the profile of this one.
+pub(crate) fn built(profile: &str, program: &str) -> Result<Command, TaskError> {
+    let this =
+        std::env::current_exe().map_err(|source| TaskError::File { path: PathBuf::from("xtask"), source })?;
+    let target = this.parent().and_then(Path::parent).expect("cargo puts a binary into target/<profile>");
+    let name = format!("{program}{}", std::env::consts::EXE_SUFFIX);
+    Ok(Command::new(target.join(profile).join(name)))
+}
+
 /// The command as one would type it.
 pub(crate) fn shown(command: &Command) -> String {
     let program = Path::new(command.get_program()).file_stem().unwrap_or_default();

@@ -18,4 +18,3 @@ mod solid_refusals;
 mod solid_transfer;
 mod validation;
 mod vtu;
-mod vtu_reader;

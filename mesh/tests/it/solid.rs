@@ -3,11 +3,10 @@
 use partita_mesh::generate::{SolidRectangle, solid_rectangle};
 use partita_mesh::gmsh::GmshFile;
 use partita_mesh::solid::reference;
-use partita_mesh::vtu::{Encoding, write_vtu};
+use partita_mesh::vtu::{Encoding, VtuFile, write_vtu};
 use partita_mesh::{CellKind, SolidMesh};
 
 use crate::gmsh::{PLATE_4_TEXT, SECOND_ORDER};
-use crate::vtu_reader::read;
 
 pub(crate) const QUADRILATERALS_4: &[u8] = include_bytes!("../data/plate-quadrilaterals-4.1-ascii.msh");
 pub(crate) const QUADRILATERALS_8: &[u8] = include_bytes!("../data/plate-quadrilaterals-8-2.2-ascii.msh");
@@ -129,7 +128,7 @@ fn viewers_get_the_kind_of_the_cells() {
         let mesh = bent_square(kind, 2);
         let mut file = Vec::new();
         write_vtu(&mut file, mesh.points(), mesh.cells(), &[], &[], Encoding::Ascii).expect("memory");
-        let file = read(&String::from_utf8(file).expect("XML is text"));
+        let file = VtuFile::parse(&String::from_utf8(file).expect("XML is text")).expect("a grid");
         assert_eq!(file.arrays["types"].values, vec![vtk_id; mesh.cells().len()]);
         assert_eq!(file.arrays["connectivity"].values.len(), mesh.cells().nodes.len());
     }

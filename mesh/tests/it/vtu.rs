@@ -3,14 +3,17 @@
 use std::fs;
 
 use partita_mesh::generate::Diagonal;
-use partita_mesh::vtu::{Array, Encoding, PvdCollection, VtuError, save_vtu, write_vtu};
+use partita_mesh::vtu::{Array, Encoding, PvdCollection, VtuError, VtuFile, save_vtu, write_vtu};
 use partita_mesh::{CellKind, Cells, Mesh};
 
 use crate::boxes::{field, unit_cube, unit_square};
-use crate::vtu_reader::{File, read};
+
+fn parsed(file: Vec<u8>) -> VtuFile {
+    VtuFile::parse(&String::from_utf8(file).expect("XML is text")).expect("a grid")
+}
 
 /// Writes velocity and pressure at the points and a number in each cell; returns what a reader finds.
-fn written<const D: usize>(mesh: &Mesh<D>, encoding: Encoding) -> (File, Vec<f64>, Vec<f64>) {
+fn written<const D: usize>(mesh: &Mesh<D>, encoding: Encoding) -> (VtuFile, Vec<f64>, Vec<f64>) {
     let velocity = field(mesh, |x| x.map(|x| (0.1 + x).sqrt()));
     let number: Vec<f64> = (0..mesh.cells().len()).map(|cell| 1.0 / (1.0 + cell as f64)).collect();
     let mut file = Vec::new();
@@ -18,7 +21,7 @@ fn written<const D: usize>(mesh: &Mesh<D>, encoding: Encoding) -> (File, Vec<f64
     let cell_data = [Array { name: "a < b & \"c\"", components: 1, values: &number }];
     write_vtu(&mut file, mesh.points(), mesh.cells(), &point_data, &cell_data, encoding)
         .expect("memory takes it all");
-    (read(&String::from_utf8(file).expect("XML is text")), velocity, number)
+    (parsed(file), velocity, number)
 }
 
 fn check<const D: usize>(mesh: &Mesh<D>, encoding: Encoding) {
@@ -68,7 +71,7 @@ fn whole_blocks_come_back() {
         let mut file = Vec::new();
         let data = [Array { name: "square", components: 1, values: &square }];
         write_vtu(&mut file, &points, &cells, &data, &[], Encoding::Compressed).expect("memory");
-        let file = read(&String::from_utf8(file).expect("text"));
+        let file = parsed(file);
         assert_eq!(file.arrays["square"].values, square);
         assert_eq!(file.arrays["square"].format, "binary");
     }
@@ -79,7 +82,7 @@ fn no_cells_and_no_fields_are_a_file_too() {
     let mut file = Vec::new();
     let cells = Cells::new(CellKind::Quadrilateral4, vec![]);
     write_vtu::<2>(&mut file, &[], &cells, &[], &[], Encoding::Compressed).expect("memory");
-    let file = read(&String::from_utf8(file).expect("text"));
+    let file = parsed(file);
     assert!(file.arrays["Points"].values.is_empty());
 }
 
@@ -150,7 +153,7 @@ fn saved_file_replaces_the_old_one_and_leaves_no_part() {
     fs::write(folder.path().join("fluid-0001.vtu.part"), "what a killed run left").expect("writable");
     let mesh = unit_square(2, Diagonal::Right);
     save_vtu(&path, mesh.points(), mesh.cells(), &[], &[]).expect("writable");
-    let file = read(&fs::read_to_string(&path).expect("text"));
+    let file = VtuFile::load(&path).expect("a grid");
     assert_eq!(file.arrays["Points"].values.len(), 27);
     let left: Vec<_> = fs::read_dir(folder.path()).expect("a folder").collect();
     assert_eq!(left.len(), 1);
@@ -219,4 +222,25 @@ fn broken_collections_are_named() {
         "`soon` is no time"
     );
     assert!(matches!(PvdCollection::open("/nowhere/a.pvd".as_ref()), Err(VtuError::Read { .. })));
+}
+
+/// What is damaged is refused with its fault, and never read in part.
+#[test]
+fn a_damaged_grid_is_refused() {
+    let mesh = unit_square(1, Diagonal::Crossed);
+    let mut file = Vec::new();
+    write_vtu(&mut file, mesh.points(), mesh.cells(), &[], &[], Encoding::Compressed).expect("memory");
+    let sound = String::from_utf8(file).expect("XML is text");
+    VtuFile::parse(&sound).expect("a grid");
+    let refused = |from: &str, to: &str| {
+        let damaged = sound.replacen(from, to, 1);
+        assert_ne!(damaged, sound, "{from} is in the file");
+        VtuFile::parse(&damaged).expect_err(to).to_string()
+    };
+    assert_eq!(refused("\"binary\"", "\"appended\""), "unknown format appended");
+    assert_eq!(refused("Float64", "Float32"), "unknown type Float32");
+    assert_eq!(refused("NumberOfComponents=\"3\"", "NumberOfComponents=\"7\""), "15 values in groups of 7");
+    refused("</DataArray>", "AAAA</DataArray>");
+    refused("</DataArray>", "");
+    assert_eq!(VtuFile::parse("<VTKFile/>").expect_err("nothing").to_string(), "it holds no arrays");
 }

@@ -4,15 +4,15 @@ use partita_charts::axis::rounded;
 use partita_charts::work_precision::{Fit, Floor, FloorKind};
 
 use super::findings::Findings;
-use super::row::{NOTHING, Row, SAME};
+use super::row::{ERROR, Row};
 use super::short;
 use super::study::Study;
-use crate::reproduce::markdown;
+use crate::markdown;
 
 const HEAD: &str = "\
 # Accuracy against time
 
-<!-- Generated from docs/data/accuracy.csv and studies/: `cargo xtask accuracy --mode write` -->
+<!-- Generated from docs/data/accuracy.csv and studies/: `cargo xtask accuracy` -->
 
 What does one more digit cost? Each study here runs a scene at many settings and measures, for each, the error and the
 processor time. The error is the distance from an exact solution, from a published value, or from a reference: a run of its
@@ -27,15 +27,15 @@ more digit, a tenth of the error, costs `10^(1/|slope|) = 10^b` times the time.
 ";
 
 /// The page of these findings.
-pub(super) fn markdown(findings: &[Findings]) -> String {
+pub(super) fn text(findings: &[Findings]) -> String {
     let mut text = HEAD.to_owned();
     text.push_str(&format!(
-        "`cargo xtask accuracy` repeats everything and compares the errors with [data/accuracy.csv](data/accuracy.csv): they may \
-         differ by {} % or {}, for another processor rounds otherwise. `--mode write` keeps what it finds and writes this page; \
-         names of studies behind it do so for these alone, and `--mode page` writes the page from the data. A single study, with other settings if wanted, is \
+        "`cargo xtask accuracy` repeats everything, keeps what it finds and writes this page; names of studies behind it do so for \
+         these alone. `--mode compare` compares the errors with [data/accuracy.csv](data/accuracy.csv): they may differ by {} % or \
+         {}, for another processor rounds otherwise. `--mode page` writes the page from the data. A single study, with other settings if wanted, is \
          `partita study studies/NAME.toml`.\n",
-        rounded(100.0 * SAME, 2),
-        rounded(NOTHING, 2)
+        rounded(100.0 * ERROR.part, 2),
+        rounded(ERROR.least, 2)
     ));
     text.push_str(&short::section(findings));
     for found in findings {
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn a_section_has_the_diagram_the_table_and_the_law_in_words() {
-        let text = markdown(&[made()]);
+        let text = text(&[made()]);
         for needed in [
             "## made\n\n**Made: steps**\n\nMade data.",
             "![Made: steps](figures/accuracy-made.svg)",

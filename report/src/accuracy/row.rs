@@ -1,13 +1,12 @@
 //! One row of `docs/data/accuracy.csv`: a setting and what it came to.
 
 use crate::csv::{self, Csv};
+use crate::kept::Tolerance;
 use crate::task::TaskError;
 
-/// Errors that differ by less than this part are the same: another processor rounds otherwise, and where a criterion is met
-/// by a hair it may take an iteration more.
-pub(super) const SAME: f64 = 0.02;
-/// Errors below this are the same.
-pub(super) const NOTHING: f64 = 1e-7;
+/// Errors that are the same: another processor rounds otherwise, and where a criterion is met by a hair it may take an iteration
+/// more.
+pub(super) const ERROR: Tolerance = Tolerance { part: 0.02, least: 1e-7 };
 
 /// A setting of a study.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,27 +87,6 @@ impl Row {
     pub(super) fn title(&self) -> String {
         format!("{}, {}, {}", self.study, self.choice, self.setting)
     }
-
-    pub(super) fn is_setting_of(&self, other: &Self) -> bool {
-        self.title() == other.title()
-    }
-
-    /// Whether two rows say the same, times and counts left aside.
-    pub(super) fn agrees_with(&self, other: &Self) -> bool {
-        match (self.error, other.error) {
-            (Some(a), Some(b)) => (a - b).abs() <= (SAME * a.max(b)).max(NOTHING),
-            (None, None) => true,
-            _ => false,
-        }
-    }
-
-    pub(super) fn shown(&self) -> String {
-        let outcome = match (self.error, self.cpu_seconds) {
-            (Some(error), Some(seconds)) => format!("error {error:.3e}, {seconds:.3e} s"),
-            _ => self.failure.clone(),
-        };
-        format!("{}: {outcome}", self.title())
-    }
 }
 
 #[cfg(test)]
@@ -160,10 +138,9 @@ pub(super) mod tests {
 
     #[test]
     fn small_differences_and_small_errors_agree_and_failures_do_not() {
-        let of = |error| row("a", "b", "c", error, 1.0);
-        assert!(of(1e-3).agrees_with(&of(1.01e-3)) && of(1e-12).agrees_with(&of(3e-9)));
-        assert!(!of(1e-3).agrees_with(&of(1.03e-3)));
-        let failed = Row { error: None, ..of(0.0) };
-        assert!(failed.agrees_with(&failed) && !failed.agrees_with(&of(0.0)));
+        let holds = |kept, found| ERROR.holds(kept, found);
+        assert!(holds("1e-3", "1.01e-3") && holds("1e-12", "3e-9"));
+        assert!(!holds("1e-3", "1.03e-3"));
+        assert!(holds("", "") && !holds("", "0"));
     }
 }

@@ -6,7 +6,7 @@ use partita_charts::work_precision::Fit;
 use super::findings::{FIRM, Findings, MOVES};
 use super::page::{cost, seconds};
 use super::row::Row;
-use crate::reproduce::markdown;
+use crate::markdown;
 
 /// The section `In short`.
 pub(super) fn section(findings: &[Findings]) -> String {

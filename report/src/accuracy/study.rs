@@ -58,9 +58,7 @@ impl Study {
     }
 
     pub(super) fn read(root: &Path, name: &str) -> Result<Self, TaskError> {
-        let path = root.join(Self::file(name));
-        let study: Self = toml::from_str(&task::read(&path)?)
-            .map_err(|error| TaskError::Failed(format!("{}: {error}", path.display())))?;
+        let study: Self = task::read_toml(&root.join(Self::file(name)))?;
         Ok(Self { name: name.to_owned(), ..study })
     }
 

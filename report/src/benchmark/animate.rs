@@ -1,11 +1,13 @@
 //! One more period of a finished level, with fields to look at.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+
+use partita::output::{self, Summary};
 
 use super::case::Case;
 use super::signals::Samples;
-use crate::task::{TaskError, captured, read, run, write};
+use crate::runs::Runs;
+use crate::task::{TaskError, files_of, folders_of, read, read_json, remove_folder, write};
 
 /// Pictures of a period.
 const FRAMES: usize = 40;
@@ -16,7 +18,7 @@ const FRAMES: usize = 40;
 /// # Errors
 /// When the level has no period, or the copy cannot be made or run.
 pub(super) fn period(
-    binary: &Path,
+    runs: &Runs,
     case: &Case,
     dir: &Path,
     samples: Option<&Samples>,
@@ -26,25 +28,13 @@ pub(super) fn period(
     // The time of the first sample is about minus one period before the last one begins.
     let times = samples.and_then(|samples| samples.get("time")).ok_or_else(nothing)?;
     let steps = times.iter().filter(|&&time| time < 0.0).count();
-    let copy =
-        dir.with_file_name(format!("{}-period", dir.file_name().unwrap_or_default().to_string_lossy()));
+    let copy = dir.with_file_name("period");
     duplicate(dir, &copy)?;
     let scene = copy.join("scene.toml");
-    let done = done(&copy)?;
+    let done = read_json::<Summary>(&copy.join(output::SUMMARY))?.steps;
     write(&scene, &with_fields(&read(&scene)?, done + steps, (steps / FRAMES).max(1)))?;
-    let mut command = Command::new(binary);
-    command.arg("resume").arg(&copy).arg("--quiet");
-    run(command)?;
+    runs.resume(&copy)?;
     Ok(copy)
-}
-
-/// Steps of the run in a folder.
-fn done(dir: &Path) -> Result<usize, TaskError> {
-    let summary = read(&dir.join("summary.json"))?;
-    let summary: serde_json::Value = serde_json::from_str(&summary)
-        .map_err(|error| TaskError::Failed(format!("{}: {error}", dir.display())))?;
-    let steps = summary["steps"].as_u64().and_then(|steps| usize::try_from(steps).ok());
-    steps.ok_or_else(|| TaskError::Failed(format!("{}: the summary has no steps", dir.display())))
 }
 
 /// The resolved scene with another end and with files of fields.
@@ -61,13 +51,18 @@ fn with_fields(scene: &str, steps: usize, every: usize) -> String {
     scene.lines().map(line).collect()
 }
 
+/// Copies a folder of a run, which holds files and one level of folders.
 fn duplicate(from: &Path, to: &Path) -> Result<(), TaskError> {
-    if to.exists() {
-        std::fs::remove_dir_all(to).map_err(|source| TaskError::File { path: to.to_owned(), source })?;
+    remove_folder(to)?;
+    for folder in [from.to_owned()].into_iter().chain(folders_of(from)?) {
+        let into = to.join(folder.strip_prefix(from).unwrap_or(&folder));
+        std::fs::create_dir_all(&into).map_err(|source| TaskError::File { path: into.clone(), source })?;
+        for (name, bytes) in files_of(&folder)? {
+            let path = into.join(name);
+            std::fs::write(&path, bytes).map_err(|source| TaskError::File { path, source })?;
+        }
     }
-    let mut command = Command::new("cp");
-    command.arg("-r").arg(from).arg(to);
-    captured(command).map(drop)
+    Ok(())
 }
 
 #[cfg(test)]

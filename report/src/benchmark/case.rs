@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use crate::task::TaskError;
+use crate::task::{self, TaskError};
 
 /// A scene with a setting, its levels, and what the literature says about it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -91,36 +91,28 @@ pub(super) enum Take {
 
 /// All cases of the workspace, in the order of their scenes' names.
 pub(super) fn all(root: &Path) -> Result<Vec<Case>, TaskError> {
-    let scenes = root.join("scenes");
-    let refused = |source| TaskError::File { path: scenes.clone(), source };
-    let mut folders = Vec::new();
-    for entry in std::fs::read_dir(&scenes).map_err(refused)? {
-        folders.push(entry.map_err(refused)?.path());
-    }
-    folders.sort();
     let mut cases = Vec::new();
-    for folder in folders {
+    for folder in task::folders_of(&root.join("scenes"))? {
         let path = folder.join("benchmark.toml");
         if !path.is_file() {
             continue;
         }
-        let text = std::fs::read_to_string(&path)
-            .map_err(|source| TaskError::File { path: path.clone(), source })?;
-        let read =
-            cases_of(&text).map_err(|error| TaskError::Failed(format!("{}: {error}", path.display())))?;
-        cases.extend(read.into_iter().map(|case| Case { scene: folder.clone(), ..case }));
+        cases.extend(
+            task::read_toml::<File>(&path)?
+                .cases
+                .into_iter()
+                .map(|case| Case { scene: folder.clone(), ..case }),
+        );
     }
     Ok(cases)
 }
 
-fn cases_of(text: &str) -> Result<Vec<Case>, toml::de::Error> {
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct File {
-        #[serde(rename = "case")]
-        cases: Vec<Case>,
-    }
-    toml::from_str::<File>(text).map(|file| file.cases)
+/// `benchmark.toml`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(rename = "case")]
+    cases: Vec<Case>,
 }
 
 #[cfg(test)]
@@ -175,7 +167,7 @@ mod tests {
 
     #[test]
     fn a_misspelled_key_is_refused() {
-        assert!(cases_of("[[case]]\nnam = \"x\"\n").is_err());
-        assert!(cases_of("[[cases]]\nname = \"x\"\n").is_err());
+        assert!(toml::from_str::<File>("[[case]]\nnam = \"x\"\n").is_err());
+        assert!(toml::from_str::<File>("[[cases]]\nname = \"x\"\n").is_err());
     }
 }

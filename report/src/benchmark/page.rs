@@ -2,23 +2,25 @@
 
 use std::fmt::Write;
 
-use super::case::Case;
+use super::case::{Case, Quantity};
 use super::row::{Row, number};
+use crate::markdown;
 
 const HEAD: &str = "\
 # Benchmarks
 
-<!-- Generated from docs/data/benchmarks.csv and scenes/*/benchmark.toml: `cargo xtask benchmark --mode write` -->
+<!-- Generated from docs/data/benchmarks.csv and scenes/*/benchmark.toml: `cargo xtask benchmark` -->
 
 Published numbers beside ours, level by level: every case is a scene with meshes (and time steps) that are refined
 regularly, so that the trend tells what the last digits are worth. All rows, with unknowns, steps and times, are in
 [data/benchmarks.csv](data/benchmarks.csv). Errors are relative to the reference; in the pictures of errors the
-dashed lines are the targets, in those of signals the band is the mean of the reference with its amplitude. A run is repeated with `cargo xtask benchmark CASE`.
+dashed lines are the targets, in those of signals the band is the mean of the reference with its amplitude. `cargo xtask benchmark CASE --mode compare` repeats
+the runs of a case.
 
 ";
 
 /// The page for `cases` with the rows that there are of them.
-pub(super) fn markdown(cases: &[Case], rows: &[Row]) -> String {
+pub(super) fn text(cases: &[Case], rows: &[Row]) -> String {
     let mut text = HEAD.to_owned();
     overview(&mut text, cases, rows);
     for case in cases {
@@ -32,22 +34,24 @@ pub(super) fn markdown(cases: &[Case], rows: &[Row]) -> String {
 
 /// The finest level of every case in one table.
 fn overview(text: &mut String, cases: &[Case], rows: &[Row]) {
-    put(text, "| case | quantity | reference | ours | error | target |\n|---|---|---|---|---|---|");
+    let mut lines = Vec::new();
     for case in cases {
         let of_case = || rows.iter().filter(|row| row.case == case.name);
         let finest = of_case().map(|row| row.level).max();
         for row in of_case().filter(|row| Some(row.level) == finest) {
             let Row { quantity, reference, ours, error_percent, target_percent, .. } = row;
             let mark = if row.meets_its_target() { "" } else { " (missed)" };
-            put(
-                text,
-                &format!(
-                    "| [{}](#{}) | {quantity} | {reference} | {ours} | {error_percent} % | {target_percent} %{mark} |",
-                    case.name, case.name
-                ),
-            );
+            lines.push(vec![
+                format!("[{0}](#{0})", case.name),
+                quantity.clone(),
+                reference.clone(),
+                ours.clone(),
+                format!("{error_percent} %"),
+                format!("{target_percent} %{mark}"),
+            ]);
         }
     }
+    *text += &markdown::prose_table(&["case", "quantity", "reference", "ours", "error", "target"], &lines);
 }
 
 fn section(text: &mut String, case: &Case, rows: &[&Row]) {
@@ -60,45 +64,7 @@ fn section(text: &mut String, case: &Case, rows: &[&Row]) {
     let mut levels: Vec<&Row> = rows.to_vec();
     levels.sort_by_key(|row| row.level);
     levels.dedup_by_key(|row| row.level);
-    let cells = |cell: &dyn Fn(&Row) -> String| {
-        levels.iter().map(|row| cell(row)).fold(String::new(), |line, cell| line + " " + &cell + " |")
-    };
-    put(text, &format!("| | reference |{}", cells(&|row| format!("level {}", row.level))));
-    put(text, &format!("|---|---|{}", "---|".repeat(levels.len())));
-    for quantity in &case.quantities {
-        let mut line = format!("| {} | {} |", quantity.name, quantity.reference);
-        for level in &levels {
-            let row = rows.iter().find(|row| row.level == level.level && row.quantity == quantity.name);
-            let cell = row.map_or_else(String::new, |row| format!("{} ({} %)", row.ours, row.error_percent));
-            write!(line, " {cell} |").expect("a String takes any text");
-        }
-        put(text, &line);
-    }
-    put(text, &format!("| unknowns | |{}", cells(&|row| row.dofs.to_string())));
-    put(text, &format!("| steps | |{}", cells(&|row| row.steps.to_string())));
-    if levels.iter().any(|row| !row.coupling_per_step.is_empty()) {
-        put(
-            text,
-            &format!("| coupling iterations a step | |{}", cells(&|row| row.coupling_per_step.clone())),
-        );
-    }
-    put(text, &format!("| processor time [s] | |{}", cells(&|row| row.cpu_seconds.clone())));
-    if levels.iter().any(|row| row.steps > 1) {
-        put(text, &format!("| ... a step | |{}", cells(&|row| per(row, row.steps as f64))));
-    }
-    if levels.iter().any(|row| !row.simulated_seconds.is_empty()) {
-        put(
-            text,
-            &format!(
-                "| ... a simulated second | |{}",
-                cells(&|row| per(row, number(&row.simulated_seconds)))
-            ),
-        );
-    }
-    if levels.iter().any(|row| !row.repeats_percent.is_empty()) {
-        let cell = |row: &Row| format!("{} %", row.repeats_percent);
-        put(text, &format!("| last periods repeat to | |{}", cells(&cell)));
-    }
+    text.push_str(&table(case, rows, &levels));
     let missing: Vec<String> = (1..=case.levels.len())
         .filter(|number| levels.iter().all(|row| row.level != *number))
         .map(|number| number.to_string())
@@ -117,6 +83,40 @@ fn section(text: &mut String, case: &Case, rows: &[&Row]) {
     }
 }
 
+/// A column for each level: quantities, then what they cost.
+fn table(case: &Case, rows: &[&Row], levels: &[&Row]) -> String {
+    let line = |name: &str, reference: String, cell: &dyn Fn(&Row) -> String| -> Vec<String> {
+        [name.to_owned(), reference].into_iter().chain(levels.iter().map(|row| cell(row))).collect()
+    };
+    let of_quantity = |quantity: &Quantity| {
+        line(&quantity.name, quantity.reference.to_string(), &|level| {
+            let row = rows.iter().find(|row| row.level == level.level && row.quantity == quantity.name);
+            row.map_or_else(String::new, |row| format!("{} ({} %)", row.ours, row.error_percent))
+        })
+    };
+    let mut lines: Vec<Vec<String>> = case.quantities.iter().map(of_quantity).collect();
+    let has = |is_there: fn(&Row) -> bool| levels.iter().any(|row| is_there(row));
+    let mut add = |is_there: bool, name: &str, cell: &dyn Fn(&Row) -> String| {
+        lines.extend(is_there.then(|| line(name, String::new(), cell)));
+    };
+    add(true, "unknowns", &|row| row.dofs.to_string());
+    add(true, "steps", &|row| row.steps.to_string());
+    let coupled = has(|row| !row.coupling_per_step.is_empty());
+    add(coupled, "coupling iterations a step", &|row| row.coupling_per_step.clone());
+    add(true, "processor time [s]", &|row| row.cpu_seconds.clone());
+    add(has(|row| row.steps > 1), "... a step", &|row| per(row, row.steps as f64));
+    let timed = has(|row| !row.simulated_seconds.is_empty());
+    add(timed, "... a simulated second", &|row| per(row, number(&row.simulated_seconds)));
+    let repeats = has(|row| !row.repeats_percent.is_empty());
+    add(repeats, "last periods repeat to", &|row| format!("{} %", row.repeats_percent));
+    let header = line("", "reference".to_owned(), &|row| format!("level {}", row.level));
+    // The cells beside names and below the reference are left blank, and narrow.
+    markdown::prose_table(&header, &lines)
+        .lines()
+        .map(|line| line.replacen("|  |", "| |", 1) + "\n")
+        .collect()
+}
+
 /// Processor time for each of so many \[s\].
 fn per(row: &Row, count: f64) -> String {
     let each = number(&row.cpu_seconds) / count;
@@ -129,25 +129,12 @@ fn put(text: &mut String, line: &str) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::case::{Quantity, Take};
+    use super::super::case::Take;
     use super::*;
 
     fn row(level: usize, ours: &str, error: &str) -> Row {
-        Row {
-            case: "csm1".into(),
-            level,
-            quantity: "u_y".into(),
-            reference: "-66.1".into(),
-            ours: ours.into(),
-            error_percent: error.into(),
-            target_percent: "1".into(),
-            dofs: 100 * level,
-            steps: 1,
-            cpu_seconds: "0.01".into(),
-            coupling_per_step: String::new(),
-            simulated_seconds: String::new(),
-            repeats_percent: String::new(),
-        }
+        let of = super::super::row::tests::row(level, ours, error);
+        Row { quantity: "u_y".into(), dofs: 100 * level, ..of }
     }
 
     #[test]
@@ -171,7 +158,7 @@ mod tests {
             until: None,
             scene: "scenes/flag".into(),
         };
-        let page = markdown(&[case], &[row(1, "-64", "3.177"), row(2, "-65", "1.664")]);
+        let page = text(&[case], &[row(1, "-64", "3.177"), row(2, "-65", "1.664")]);
         let body = page.strip_prefix(HEAD).expect("the head comes first");
         let expected = "\
 | case | quantity | reference | ours | error | target |

@@ -59,21 +59,8 @@ mod tests {
     use partita_charts::legible::faults;
 
     fn row(dofs: usize, quantity: &str, error: &str, target: &str) -> Row {
-        Row {
-            case: "cfd1".into(),
-            level: 1,
-            quantity: quantity.into(),
-            reference: "14.2929".into(),
-            ours: "14".into(),
-            error_percent: error.into(),
-            target_percent: target.into(),
-            dofs,
-            steps: 1,
-            cpu_seconds: "1".into(),
-            coupling_per_step: String::new(),
-            simulated_seconds: String::new(),
-            repeats_percent: String::new(),
-        }
+        let of = super::super::row::tests::row(1, "14", error);
+        Row { dofs, quantity: quantity.into(), target_percent: target.into(), ..of }
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! `docs/data/benchmarks.csv`: a row for each quantity of each level.
 
-use std::fmt::Write;
+use crate::csv::{self, Csv};
+use crate::kept::{self, EXACT, Tolerance};
+use crate::task::TaskError;
 
 /// One comparison. Numbers are kept as they are written, so that a file that is read and written again is the same.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -27,10 +29,21 @@ pub(super) struct Row {
     pub(super) repeats_percent: String,
 }
 
-const HEAD: &str = "case,level,quantity,reference,ours,error_percent,target_percent,dofs,steps,cpu_seconds,coupling_per_step,simulated_seconds,repeats_percent";
-
-/// Part by which a repeated number may differ: the file keeps six digits.
-const SAME: f64 = 2e-5;
+const COLUMNS: [&str; 13] = [
+    "case",
+    "level",
+    "quantity",
+    "reference",
+    "ours",
+    "error_percent",
+    "target_percent",
+    "dofs",
+    "steps",
+    "cpu_seconds",
+    "coupling_per_step",
+    "simulated_seconds",
+    "repeats_percent",
+];
 
 impl Row {
     fn cells(&self) -> [String; 13] {
@@ -51,66 +64,29 @@ impl Row {
         ]
     }
 
-    fn read(line: &str) -> Option<Self> {
-        let cells: Vec<&str> = line.split(',').collect();
-        let [
-            case,
-            level,
-            quantity,
-            reference,
-            ours,
-            error,
-            target,
-            dofs,
-            steps,
-            cpu,
-            coupling,
-            time,
-            repeats,
-        ] = cells[..]
-        else {
-            return None;
-        };
-        Some(Self {
-            case: case.to_owned(),
-            level: level.parse().ok()?,
-            quantity: quantity.to_owned(),
-            reference: reference.to_owned(),
-            ours: ours.to_owned(),
-            error_percent: error.to_owned(),
-            target_percent: target.to_owned(),
-            dofs: dofs.parse().ok()?,
-            steps: steps.parse().ok()?,
-            cpu_seconds: cpu.to_owned(),
-            coupling_per_step: coupling.to_owned(),
-            simulated_seconds: time.to_owned(),
-            repeats_percent: repeats.to_owned(),
+    pub(super) fn read(row: csv::Row<'_>) -> Result<Self, TaskError> {
+        let text = |column| row.text(column).map(str::to_owned);
+        Ok(Self {
+            case: text("case")?,
+            level: row.value("level")?,
+            quantity: text("quantity")?,
+            reference: text("reference")?,
+            ours: text("ours")?,
+            error_percent: text("error_percent")?,
+            target_percent: text("target_percent")?,
+            dofs: row.value("dofs")?,
+            steps: row.value("steps")?,
+            cpu_seconds: text("cpu_seconds")?,
+            coupling_per_step: text("coupling_per_step")?,
+            simulated_seconds: text("simulated_seconds")?,
+            repeats_percent: text("repeats_percent")?,
         })
-    }
-
-    /// Whether both compare the same thing.
-    pub(super) fn is_about_the_same_as(&self, other: &Self) -> bool {
-        (&self.case, self.level, &self.quantity) == (&other.case, other.level, &other.quantity)
-    }
-
-    /// Whether the other repeats this one, the time left out.
-    pub(super) fn agrees_with(&self, other: &Self) -> bool {
-        let same = |a: &str, b: &str| a == b || near(a, b);
-        self.is_about_the_same_as(other)
-            && same(&self.reference, &other.reference)
-            && same(&self.ours, &other.ours)
-            && (self.dofs, self.steps) == (other.dofs, other.steps)
     }
 
     /// Whether ours is as near to the reference as was aimed at.
     pub(super) fn meets_its_target(&self) -> bool {
         number(&self.error_percent).abs() <= number(&self.target_percent)
     }
-}
-
-fn near(a: &str, b: &str) -> bool {
-    let (a, b) = (number(a), number(b));
-    (a - b).abs() <= SAME * a.abs().max(b.abs())
 }
 
 /// The number in a cell; not-a-number for anything else.
@@ -123,29 +99,28 @@ pub(super) fn six_digits(number: f64) -> String {
     format!("{number:.5e}").parse::<f64>().map_or_else(|_| number.to_string(), |rounded| rounded.to_string())
 }
 
-/// The file of some rows.
-pub(super) fn to_csv(rows: &[Row]) -> String {
-    let mut text = format!("{HEAD}\n");
+/// The table of some rows.
+pub(super) fn to_csv(rows: &[Row]) -> Csv {
+    let mut table = Csv::new(COLUMNS);
     for row in rows {
-        writeln!(text, "{}", row.cells().join(",")).expect("a String takes any text");
+        table.push(row.cells().to_vec());
     }
-    text
+    table
 }
 
-/// The rows of a file, or the line that is none.
-pub(super) fn from_csv(text: &str) -> Result<Vec<Row>, String> {
-    let mut lines = text.lines();
-    if lines.next() != Some(HEAD) {
-        return Err(format!("the first line is not `{HEAD}`"));
-    }
-    lines.map(|line| Row::read(line).ok_or_else(|| format!("not a row: `{line}`"))).collect()
+/// Numbers to five digits, for the file keeps six; times are not compared.
+pub(super) fn differences(kept: &Csv, found: &Csv) -> Result<Vec<String>, TaskError> {
+    let number = Tolerance { part: 2e-5, least: 0.0 };
+    let columns = [("reference", number), ("ours", number), ("dofs", EXACT), ("steps", EXACT)];
+    kept::differences(&["case", "level", "quantity"], &columns, kept, found)
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    pub(super) fn row(level: usize, ours: &str, error: &str) -> Row {
+    /// A level of csm1.
+    pub(crate) fn row(level: usize, ours: &str, error: &str) -> Row {
         Row {
             case: "csm1".into(),
             level,
@@ -166,20 +141,26 @@ mod tests {
     #[test]
     fn a_file_reads_back_as_it_was_written() {
         let rows = [row(1, "-65.223", "1.327"), row(2, "-65.8375", "0.397")];
-        let text = to_csv(&rows);
-        assert_eq!(from_csv(&text).expect("a file"), rows);
-        assert!(from_csv("case,level\n").is_err());
-        assert!(from_csv(&format!("{HEAD}\ncsm1,1\n")).is_err());
+        let text = to_csv(&rows).to_text();
+        let read = |text: &str| -> Result<Vec<Row>, TaskError> {
+            Csv::parse(text).expect("a table").rows().map(Row::read).collect()
+        };
+        assert_eq!(read(&text).expect("its own rows"), rows);
+        assert!(read("case,level\ncsm1,1\n").is_err());
     }
 
     #[test]
     fn a_repetition_agrees_to_five_digits_whatever_it_cost() {
         let before = row(1, "-65.223", "1.327");
         let slower = Row { cpu_seconds: "7".into(), ..row(1, "-65.2231", "1.326") };
-        assert!(before.agrees_with(&slower));
-        assert!(!before.agrees_with(&row(1, "-65.233", "1.312")));
-        assert!(!before.agrees_with(&row(2, "-65.223", "1.327")));
-        assert!(!before.agrees_with(&Row { dofs: 121, ..before.clone() }));
+        let found = |row: Row| {
+            let [kept, found] = [before.clone(), row].map(|row| to_csv(&[row]));
+            differences(&kept, &found).expect("all columns are there").len()
+        };
+        assert_eq!(found(slower), 0);
+        assert_eq!(found(row(1, "-65.233", "1.312")), 1);
+        assert_eq!(found(row(2, "-65.223", "1.327")), 2, "one row comes, another goes");
+        assert_eq!(found(Row { dofs: 121, ..before.clone() }), 1);
     }
 
     #[test]

@@ -3,34 +3,19 @@
 use std::path::Path;
 
 use super::{Variant, read};
+use crate::markdown::{percent, prose_table, table};
+use crate::report::File;
 use crate::reproduce::case::Case;
 use crate::reproduce::claims::{CLAIMS, word};
-use crate::reproduce::counts::{Count, Counts, deviation};
+use crate::reproduce::counts::{Count, Counts, deviation, heat_maps};
 use crate::reproduce::facts::Facts;
-use crate::reproduce::heat_map;
-use crate::reproduce::markdown::{percent, prose_table, table};
 use crate::reproduce::setting::{Adaptive, Limits, Setting};
 use crate::task::{self, TaskError};
 
 const FILE: &str = "docs/beyond-the-paper.md";
 
-pub(super) fn write(root: &Path) -> Result<(), TaskError> {
-    files(root)?.iter().try_for_each(|(path, text)| task::write(&root.join(path), text))
-}
-
-/// Fails where a page or figure differs from the results.
-pub(super) fn check(root: &Path) -> Result<(), TaskError> {
-    for (path, text) in files(root)? {
-        if task::read(&root.join(&path))? != text {
-            return Err(TaskError::Failed(format!(
-                "{path} does not say what paper/results says\nhint: `cargo xtask beyond` writes it"
-            )));
-        }
-    }
-    Ok(())
-}
-
-fn files(root: &Path) -> Result<Vec<(String, String)>, TaskError> {
+/// The page and its heat maps.
+pub(super) fn files(root: &Path) -> Result<Vec<File>, TaskError> {
     let variants = read(root)?;
     let mut text = INTRODUCTION.to_owned();
     text += &task::read(&root.join("paper/remarks-beyond.md"))?;
@@ -46,10 +31,7 @@ fn files(root: &Path) -> Result<Vec<(String, String)>, TaskError> {
                 ("linear convergence", &scene.facts[0].grid),
                 ("quadratic convergence", &scene.facts[1].grid),
             ];
-            files.push((
-                format!("docs/{}", figure(case, count)),
-                heat_map::side_by_side(&title, panels, count),
-            ));
+            files.push((format!("docs/{}", figure(case, count)), heat_maps(&title, panels, count)));
         }
     }
     files.push((FILE.to_owned(), text));

@@ -21,13 +21,6 @@ pub(super) struct Case {
     pub(super) coupled: bool,
 }
 
-impl Case {
-    /// The case whose reference is this one's, too: the same scene, solved by the same reference run.
-    pub(super) fn shares_the_reference_of(&self, other: &Case) -> bool {
-        (self.scene, self.set, self.finer) == (other.scene, other.set, other.finer)
-    }
-}
-
 /// The flap that the default is judged by.
 pub(super) const FLAP: &str = "flap, BDF2";
 

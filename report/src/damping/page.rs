@@ -2,17 +2,18 @@
 
 use super::case::{CASES, Case, FLAP};
 use super::row::{Radius, Row};
+use crate::markdown;
 
 const HEAD: &str = "\
 # Numerical damping of the structure
 
-<!-- Generated from docs/data/damping.csv: `cargo xtask damping --mode write` -->
+<!-- Generated from docs/data/damping.csv: `cargo xtask damping` -->
 
 The generalized-alpha scheme of the structure has one parameter, its spectral radius at infinite frequency. At radius 1 it
 keeps the energy of every vibration, including those that the mesh has but the time step does not resolve. In a coupled run
 these never die out after a jolt, and the force between fluid and structure oscillates from step to step. At radius 0 they
-are gone within a few steps, but slow vibrations lose amplitude, too. This study compares both effects; `cargo xtask damping`
-repeats all runs and compares them with [data/damping.csv](data/damping.csv).
+are gone within a few steps, but slow vibrations lose amplitude, too. This study compares both effects; `cargo xtask damping
+--mode compare` repeats all runs and compares them with [data/damping.csv](data/damping.csv).
 ";
 
 const COLUMNS: &str = "
@@ -34,12 +35,12 @@ grad-div and raise `inverse_constant`, which leaves little of that dependence; w
 ";
 
 /// The page of these rows.
-pub(super) fn markdown(rows: &[Row]) -> String {
+pub(super) fn text(rows: &[Row]) -> String {
     let mut text = format!("{HEAD}{COLUMNS}");
     for case in &CASES {
         let of: Vec<&Row> = rows.iter().filter(|row| row.case == case.name).collect();
         text.push_str(&format!("\n## {}\n\n{}\n\n", heading(case.name), setting(case)));
-        table(&mut text, case, &of);
+        text.push_str(&table(case, &of));
     }
     text.push_str(&reason(rows));
     text
@@ -62,31 +63,35 @@ fn setting(case: &Case) -> String {
     )
 }
 
-fn table(text: &mut String, case: &Case, rows: &[&Row]) {
+fn table(case: &Case, rows: &[&Row]) -> String {
     let undamped =
         rows.iter().find(|row| row.radius == Radius::Given(1.0)).and_then(|row| row.second_difference);
-    if case.coupled {
-        text.push_str("| spectral radius | second difference, N/m | of that at 1 | error of the displacement | error of the force |\n");
-        text.push_str("|---|---:|---:|---:|---:|\n");
+    let header: &[&str] = if case.coupled {
+        &[
+            "spectral radius",
+            "second difference, N/m",
+            "of that at 1",
+            "error of the displacement",
+            "error of the force",
+        ]
     } else {
-        text.push_str("| spectral radius | error of the displacement |\n|---|---:|\n");
-    }
-    for row in rows {
-        let label = match row.radius {
+        &["spectral radius", "error of the displacement"]
+    };
+    let line = |row: &&Row| {
+        let mut line = vec![match row.radius {
             Radius::Given(value) => value.to_string(),
             Radius::Default => format!("**{}, the default**", row.value),
             Radius::Reference => "reference".to_owned(),
-        };
-        text.push_str(&format!("| {label} |"));
+        }];
         if let Some(second_difference) = row.second_difference {
             let part = undamped.map_or(f64::NAN, |undamped| second_difference / undamped);
-            text.push_str(&format!(" {} | {part:.3} |", digits(second_difference)));
+            line.extend([digits(second_difference), format!("{part:.3}")]);
         }
-        for error in std::iter::once(row.displacement_error).chain(row.force_error) {
-            text.push_str(&format!(" {} % |", digits(100.0 * error)));
-        }
-        text.push('\n');
-    }
+        let errors = std::iter::once(row.displacement_error).chain(row.force_error);
+        line.extend(errors.map(|error| format!("{} %", digits(100.0 * error))));
+        line
+    };
+    markdown::table(header, &rows.iter().map(line).collect::<Vec<_>>())
 }
 
 /// Three digits, without an exponent.

@@ -6,10 +6,6 @@ use std::str::FromStr;
 use crate::csv::{self, Csv};
 use crate::task::TaskError;
 
-/// Numbers that differ by less than this part are the same; errors below [`NOTHING`] are round-off of the bounds.
-const SAME: f64 = 1e-3;
-const NOTHING: f64 = 1e-6;
-
 /// Which run of a case.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Radius {
@@ -75,35 +71,6 @@ impl Row {
             displacement_error: row.value("displacement_error")?,
             force_error: row.optional("force_error")?,
         })
-    }
-
-    pub(super) fn is_run_of(&self, other: &Self) -> bool {
-        (&self.case, self.radius) == (&other.case, other.radius)
-    }
-
-    pub(super) fn agrees_with(&self, other: &Self) -> bool {
-        let same = |a: f64, b: f64| (a - b).abs() <= (SAME * a.abs().max(b.abs())).max(NOTHING);
-        let both = |a: Option<f64>, b: Option<f64>| match (a, b) {
-            (Some(a), Some(b)) => same(a, b),
-            (None, None) => true,
-            (Some(_), None) | (None, Some(_)) => false,
-        };
-        self.value.to_bits() == other.value.to_bits()
-            && both(self.second_difference, other.second_difference)
-            && same(self.displacement_error, other.displacement_error)
-            && both(self.force_error, other.force_error)
-    }
-
-    pub(super) fn shown(&self) -> String {
-        let Self { case, radius, value, second_difference, displacement_error, force_error } = self;
-        let shown =
-            |value: &Option<f64>| value.map_or_else(|| "none".to_owned(), |value| format!("{value:.3e}"));
-        format!(
-            "{case}: {radius} ({value}): second difference {}, error of the displacement {displacement_error:.3e}, of the \
-             force {}",
-            shown(second_difference),
-            shown(force_error),
-        )
     }
 }
 

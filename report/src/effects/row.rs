@@ -3,10 +3,6 @@
 use crate::csv::{self, Csv};
 use crate::task::TaskError;
 
-/// Errors that differ by less than this part are the same; what is smaller than [`NOTHING`] is round-off of the bounds.
-const SAME: f64 = 1e-3;
-const NOTHING: f64 = 1e-6;
-
 /// What one run came to.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Row {
@@ -54,25 +50,5 @@ impl Row {
             error: row.text("error")?.to_owned(),
             load_error: row.text("load_error")?.to_owned(),
         })
-    }
-
-    /// Whether two rows say the same, times left aside.
-    pub(super) fn agrees_with(&self, other: &Self) -> bool {
-        let same = |a: &str, b: &str| match (a.parse::<f64>(), b.parse::<f64>()) {
-            (Ok(a), Ok(b)) => (a - b).abs() <= (SAME * a.abs().max(b.abs())).max(NOTHING),
-            _ => a == b,
-        };
-        self.effects == other.effects
-            && (self.factorizations, self.assemblies) == (other.factorizations, other.assemblies)
-            && same(&self.error, &other.error)
-            && same(&self.load_error, &other.load_error)
-    }
-
-    pub(super) fn shown(&self) -> String {
-        let Self { name, seconds_per_step, factorizations, assemblies, error, load_error, .. } = self;
-        format!(
-            "{name:<46} {seconds_per_step:>9} s a step, {factorizations:>5} factorizations, {assemblies:>5} assemblies, \
-             error {error}, of the load {load_error}"
-        )
     }
 }

@@ -1,14 +1,14 @@
 //! The runs behind the rows.
 
-use std::path::Path;
-use std::process::Command;
-
-use serde::Deserialize;
+use partita::output::Summary;
+use partita::plan::{Plan, Runs as How};
+use partita::scene::schema::Scene;
 
 use super::family::{self, Member, WHOLE};
 use super::row::Row;
-use crate::csv::Csv;
-use crate::task::{self, TaskError};
+use crate::run::{Run, solving};
+use crate::runs::Runs;
+use crate::task::TaskError;
 
 /// The effects of physics among those of `partita plan`, in the order of the page.
 const PHYSICS: [&str; 8] = [
@@ -22,32 +22,6 @@ const PHYSICS: [&str; 8] = [
     "coupling",
 ];
 
-/// What is read of a run's `summary.json`.
-#[derive(Debug, Deserialize)]
-struct Summary {
-    steps: usize,
-    converged: bool,
-    fluid: Work,
-    structure: Work,
-    seconds: Seconds,
-}
-
-#[derive(Debug, Deserialize)]
-struct Work {
-    assemblies: usize,
-    factorizations: usize,
-    mesh_factorizations: usize,
-}
-
-#[derive(Debug, Deserialize)]
-struct Seconds {
-    fluid: f64,
-    structure: f64,
-    mesh_motion: f64,
-    transfer: f64,
-    acceleration: f64,
-}
-
 /// A finished run.
 struct Outcome {
     effects: String,
@@ -58,30 +32,27 @@ struct Outcome {
 }
 
 /// Runs all members, one after the other so that each has the machine to itself.
-pub(super) fn family(root: &Path) -> Result<Vec<Row>, TaskError> {
-    let binary = task::release_binary(root)?;
-    let folder = binary.parent().and_then(Path::parent).expect("target/release/partita").join("effects");
-    task::remove_folder(&folder)?;
+pub(super) fn family(runs: &Runs) -> Result<Vec<Row>, TaskError> {
     let members = family::all();
-    let mut outcomes = Vec::new();
-    for (index, member) in members.iter().enumerate() {
-        eprintln!("{}", member.name);
-        outcomes.push(outcome(root, &binary, member, &folder.join(index.to_string()))?);
-    }
+    let outcomes = members.iter().map(|member| outcome(runs, member)).collect::<Result<Vec<_>, _>>()?;
     let whole = members.iter().position(|member| member.name == WHOLE).expect("it is a member");
-    let row = |(member, outcome): (&Member, &Outcome)| row(member, outcome, &outcomes[whole]);
-    Ok(members.iter().zip(&outcomes).map(row).collect())
+    Ok(members
+        .iter()
+        .zip(&outcomes)
+        .map(|(member, outcome)| row(member, outcome, &outcomes[whole]))
+        .collect())
 }
 
 fn row(member: &Member, Outcome { effects, summary, tip, load }: &Outcome, whole: &Outcome) -> Row {
-    let Seconds { fluid, structure, mesh_motion, transfer, acceleration } = summary.seconds;
-    let seconds = fluid + structure + mesh_motion + transfer + acceleration;
     let fields = [&summary.fluid, &summary.structure];
     Row {
         name: member.name.to_owned(),
         effects: effects.clone(),
-        seconds_per_step: format!("{:.5}", seconds / summary.steps.max(1) as f64),
-        factorizations: fields.iter().map(|field| field.factorizations + field.mesh_factorizations).sum(),
+        seconds_per_step: format!("{:.5}", solving(&summary.seconds) / summary.steps.max(1) as f64),
+        factorizations: fields
+            .iter()
+            .map(|field| field.factorizations + field.details.mesh_factorizations)
+            .sum(),
         assemblies: fields.iter().map(|field| field.assemblies).sum(),
         error: format!("{:.3e}", distance(tip, &whole.tip)),
         load_error: format!("{:.3e}", distance(load, &whole.load)),
@@ -97,69 +68,48 @@ fn distance(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     apart / largest(&mut b.iter().copied())
 }
 
-fn outcome(root: &Path, binary: &Path, member: &Member, dir: &Path) -> Result<Outcome, TaskError> {
-    let program = |word: &str| {
-        let mut command = Command::new(binary);
-        command.current_dir(root).arg(word).arg(member.scene.file());
-        for set in member.scene.settings().iter().chain(member.set) {
-            command.arg("--set").arg(set);
-        }
-        command
+fn outcome(runs: &Runs, member: &Member) -> Result<Outcome, TaskError> {
+    eprintln!("{}", member.name);
+    let run = Run::new(member.name, member.scene.file()).with(member.scene.settings()).with(member.set);
+    let effects = effects(&run.resolved(&runs.root)?.scene);
+    let outcome = runs.one(&run)?;
+    let probes = outcome.probes()?;
+    let load = probes.vectors(["load_force_x", "load_force_y"])?;
+    // A rigid beam has no tip to ask for: it stays where it is.
+    let tip = if probes.header().iter().any(|name| name == "tip_displacement_x") {
+        probes.vectors(["tip_displacement_x", "tip_displacement_y"])?
+    } else {
+        vec![[0.0; 2]; load.len()]
     };
-    let effects = effects(&task::captured(program("plan"))?);
-    let mut command = program("run");
-    command.arg("--quiet").arg("--out").arg(dir);
-    task::run(command)?;
-    let path = dir.join("summary.json");
-    let summary: Summary = serde_json::from_str(&task::read(&path)?)
-        .map_err(|error| TaskError::Failed(format!("{}: {error}", path.display())))?;
-    if !summary.converged {
-        return Err(TaskError::Failed(format!("{}: not every step converged", member.name)));
-    }
-    let (tip, load) = probes(&dir.join("probes.csv"))?;
-    Ok(Outcome { effects, summary, tip, load })
+    Ok(Outcome { effects, summary: outcome.summary, tip, load })
 }
 
-/// The effects that run, from the table of `partita plan`.
-fn effects(plan: &str) -> String {
-    let running = |name: &&str| {
-        let line = plan.lines().find_map(|line| line.strip_prefix(*name)?.strip_prefix("  "))?;
-        match line.trim_start().split("  ").next()? {
-            "no" => None,
-            "yes" => Some((*name).to_owned()),
-            how => Some(format!("{name} {how}")),
-        }
+/// The effects that run.
+fn effects(scene: &Scene) -> String {
+    let plan = Plan::of(scene);
+    let running = |name: &&str| match plan.runs(name)? {
+        How::No => None,
+        How::Yes => Some((*name).to_owned()),
+        how => Some(format!("{name} {how}")),
     };
     PHYSICS.iter().filter_map(running).collect::<Vec<_>>().join(" + ")
-}
-
-type Series = Vec<[f64; 2]>;
-
-fn probes(path: &Path) -> Result<(Series, Series), TaskError> {
-    let table = Csv::read(path)?;
-    let pair = |names: [&str; 2]| -> Result<Series, TaskError> {
-        table.rows().map(|row| Ok([row.value(names[0])?, row.value(names[1])?])).collect()
-    };
-    let load = pair(["load_force_x", "load_force_y"])?;
-    // A rigid beam has no tip to ask for: it stays where it is.
-    let is_rigid = table.rows().next().is_none_or(|row| row.text("tip_displacement_x").is_err());
-    let tip = if is_rigid {
-        vec![[0.0; 2]; load.len()]
-    } else {
-        pair(["tip_displacement_x", "tip_displacement_y"])?
-    };
-    Ok((tip, load))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::task::workspace_root;
 
     #[test]
-    fn effects_are_read_off_the_plan() {
-        let plan = "A title\n\neffect         runs     why\n-------------  -------  ---\nfluid          yes      [fluid]\n\
-                    fluid inertia  no       steady\nstructure      yes      x\ncoupling       one way  y\n";
-        assert_eq!(effects(plan), "fluid + structure + coupling one way");
+    fn every_effect_of_the_page_is_one_that_a_scene_can_have() {
+        let run = Run::new("whole", family::Scene::Elastic.file());
+        let scene = run.resolved(workspace_root()).expect("the shipped scene").scene;
+        let plan = Plan::of(&scene);
+        assert!(PHYSICS.iter().all(|name| plan.runs(name).is_some()));
+        assert_eq!(
+            effects(&scene),
+            "fluid + fluid inertia + convection + mesh motion + structure + structural inertia + geometric nonlinearity + coupling two way"
+        );
     }
 
     #[test]

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use crate::channel_mesh;
 use crate::reproduce::case::Case;
-use crate::stretch;
 use crate::task::TaskError;
 
 /// Other values for some keys of a scene.
@@ -27,7 +27,7 @@ pub(crate) fn thickness(root: &Path, folder: &Path, case: Case, value: f64) -> R
     let keys = match case {
         Case::Tank => vec![key("origin", [0.0, -value]), key("size", [1.0, value])],
         Case::Beam => {
-            let mesh = stretch::channel(root, folder, value)?;
+            let mesh = channel_mesh::with_beam(root, folder, value)?;
             vec![
                 key("origin", [3.0 - value / 2.0, 0.0]),
                 key("size", [value, 1.0]),

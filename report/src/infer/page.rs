@@ -3,30 +3,17 @@
 use std::path::Path;
 
 use crate::csv::{Csv, Row};
+use crate::markdown::{prose_table, table};
 use crate::reproduce::case::Case;
 use crate::reproduce::claims::CLAIMS;
-use crate::reproduce::markdown::{prose_table, table};
 use crate::reproduce::results;
 use crate::task::{self, TaskError};
 
 pub(super) const RESULTS: &str = "neighbours.csv";
-const FILE: &str = "docs/inference.md";
+pub(super) const FILE: &str = "docs/inference.md";
 
-pub(super) fn write(root: &Path) -> Result<(), TaskError> {
-    task::write(&root.join(FILE), &text(root)?)
-}
-
-/// Fails where the page differs from the results.
-pub(super) fn check(root: &Path) -> Result<(), TaskError> {
-    if task::read(&root.join(FILE))? == text(root)? {
-        return Ok(());
-    }
-    Err(TaskError::Failed(format!(
-        "{FILE} does not say what paper/results says\nhint: `cargo xtask infer` writes it"
-    )))
-}
-
-fn text(root: &Path) -> Result<String, TaskError> {
+/// The page of the results.
+pub(super) fn text(root: &Path) -> Result<String, TaskError> {
     let results = Csv::read(&results::folder(root).join(RESULTS))?;
     let mut text = INTRODUCTION.to_owned();
     for case in Case::ALL {

@@ -1,14 +1,13 @@
 //! Starts what is measured.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-use serde::Deserialize;
-
 use super::Data;
-use crate::benchmark::unknowns;
-use crate::task::{TaskError, captured, cargo, read, remove_folder, run};
+use crate::program::{captured, cargo, run};
+use crate::run::{Run, Stop, solving};
+use crate::runs::Runs;
+use crate::task::TaskError;
 
 /// Divisions a side of the tank whose Newton iteration is taken apart: about 6 n^2 unknowns.
 const PARTS: [usize; 5] = [10, 29, 70, 129, 223];
@@ -27,7 +26,8 @@ const fn about(divisions: usize) -> usize {
 }
 
 /// All measurements of sizes up to about `largest` unknowns.
-pub(super) fn all(root: &Path, largest: usize) -> Result<Data, TaskError> {
+pub(super) fn all(runs: &Runs, largest: usize) -> Result<Data, TaskError> {
+    let root = &runs.root;
     let mut data = Data::new(machine(root)?);
     run(cargo(root, &["bench", "--package", "partita-fluid", "--bench", "performance", "--no-run"]))?;
     let fits = |divisions: &usize| about(*divisions) <= largest;
@@ -44,9 +44,8 @@ pub(super) fn all(root: &Path, largest: usize) -> Result<Data, TaskError> {
     for divisions in STEPS_OF_TWO.into_iter().filter(fits) {
         bench(root, &mut data, &["step", &divisions.to_string(), "2"])?;
     }
-    let binary = crate::task::release_binary(root)?;
     for (scene, steps) in SCENES {
-        scene_steps(root, &binary, &mut data, scene, steps)?;
+        scene_steps(runs, &mut data, scene, steps)?;
     }
     Ok(data)
 }
@@ -73,40 +72,12 @@ fn add(data: &mut Data, line: &str) -> Result<(), TaskError> {
     Ok(())
 }
 
-#[derive(Debug, Deserialize)]
-struct Summary {
-    steps: usize,
-    seconds: BTreeMap<String, f64>,
-}
-
 /// Mean time of the first steps of a scene, set-up and output left out.
-fn scene_steps(
-    root: &Path,
-    binary: &Path,
-    data: &mut Data,
-    scene: &str,
-    steps: usize,
-) -> Result<(), TaskError> {
-    let folder = binary.parent().and_then(Path::parent).expect("target/release/partita").join("performance");
+fn scene_steps(runs: &Runs, data: &mut Data, scene: &str, steps: usize) -> Result<(), TaskError> {
     let path = format!("scenes/{scene}");
-    let program = |word: &str| {
-        let mut command = Command::new(binary);
-        command.current_dir(root).args([word, &path]);
-        command
-    };
-    let dofs = unknowns(&captured(program("check"))?);
-    let out = folder.join(scene);
-    remove_folder(&out)?;
-    let mut command = program("run");
-    command.args(["--quiet", "--set", "output.fields_every=0", "--set", "output.checkpoint_every=0"]);
-    command.args(["--steps", &steps.to_string(), "--out"]).arg(&out);
-    captured(command)?;
-    let file = out.join("summary.json");
-    let summary: Summary = serde_json::from_str(&read(&file)?)
-        .map_err(|error| TaskError::Failed(format!("{}: {error}", file.display())))?;
-    let solving: f64 =
-        summary.seconds.iter().filter(|(part, _)| *part != "output").map(|(_, seconds)| seconds).sum();
-    let milliseconds = 1e3 * solving / summary.steps.max(1) as f64;
+    let dofs = Run::new(scene, &path).unknowns(&runs.root)?;
+    let summary = runs.one(&Run::new(scene, &path).without_fields().ending(Stop::After(steps)))?.summary;
+    let milliseconds = 1e3 * solving(&summary.seconds) / summary.steps.max(1) as f64;
     let line = format!("step of {scene},{dofs},1,{milliseconds:.4},");
     println!("{line}");
     add(data, &line)

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::Data;
 use super::fit::exponent;
-use crate::reproduce::markdown::{prose_table, table};
+use crate::markdown::{prose_table, table};
 use crate::task::TaskError;
 
 /// One time.
@@ -27,7 +27,7 @@ const PARTS: [&str; 5] = ["assembly", "analysis", "refactor", "solve", "newton i
 /// Triangles of the tank's mesh for each unknown: two nodes of three unknowns for every four triangles.
 const TRIANGLES: f64 = 4.0 / 6.0;
 
-pub(super) fn markdown(data: &Data) -> Result<String, TaskError> {
+pub(super) fn text(data: &Data) -> Result<String, TaskError> {
     let numbers = Numbers::read(data)?;
     let mut text = HEAD.to_owned();
     text += &format!("Machine: {}. One thread, where no other number is given.\n", data.machine.trim());
@@ -317,7 +317,7 @@ mod tests {
 
     #[test]
     fn a_page_shows_times_ratios_and_growth() {
-        let page = markdown(&data()).expect("a page");
+        let page = text(&data()).expect("a page");
         for line in [
             "| unknowns | 601 | 29401 | 99588 | exponent |",
             "| refactor | 0.1 (5.0x) | 20 (4.0x) |  |  |",
@@ -334,18 +334,18 @@ mod tests {
     #[test]
     fn two_threads_stand_beside_one_where_both_were_measured() {
         let mut data = data();
-        let page = markdown(&data).expect("a page");
+        let page = text(&data).expect("a page");
         assert!(page.contains("| newton iteration | 29401 | 26 | 20 | 1.30 |\n"), "{page}");
         assert!(page.contains("| newton iteration | 99588 | 130 | 65 | 2.00 |\n"), "{page}");
         assert!(!page.contains("| refactor | 99588 |") && !page.contains(NO_THREADS), "{page}");
         data.times = Data::new(String::new()).times;
         data.times.push("assembly,601,1,0.08,".split(',').map(str::to_owned).collect());
-        assert!(markdown(&data).expect("a page").contains(NO_THREADS));
+        assert!(text(&data).expect("a page").contains(NO_THREADS));
     }
 
     #[test]
     fn targets_are_judged_and_what_was_not_measured_is_not() {
-        let page = markdown(&data()).expect("a page");
+        let page = text(&data()).expect("a page");
         for line in [
             "| Newton iteration of 675 unknowns | at most 0.35 ms | 0.2 ms | yes |",
             "| Newton iteration of 300000 unknowns | at most 800 ms | not measured |  |",

@@ -17,7 +17,7 @@ pub(crate) enum Case {
 impl Case {
     pub(crate) const ALL: [Self; 2] = [Self::Tank, Self::Beam];
 
-    /// The folder in `scenes/`.
+    /// The folder of its scene in `scenes/`.
     pub(crate) fn scene(self) -> &'static str {
         match self {
             Self::Tank => "elastic-bottom",
@@ -34,7 +34,7 @@ impl Case {
     }
 
     /// The paper's table of (N^f, N^s) for this case.
-    pub(crate) fn table(self) -> usize {
+    pub(crate) fn table(self) -> u8 {
         match self {
             Self::Tank => 1,
             Self::Beam => 2,

@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use partita_charts::heat_map::{HeatMap, side_by_side};
+
 use super::setting::{Limit, Limits};
+use crate::run::Outcome;
 
 /// Iterations of a whole run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,6 +23,16 @@ impl Counts {
     pub(crate) fn newton(self) -> usize {
         self.fluid + self.structure
     }
+}
+
+/// The counts of a run that reached its end with every step converged.
+pub(crate) fn counts_of(outcome: &Outcome) -> Option<Counts> {
+    let summary = &outcome.summary;
+    summary.converged.then_some(Counts {
+        coupling: summary.coupling_iterations,
+        fluid: summary.newton_fluid,
+        structure: summary.newton_structure,
+    })
 }
 
 /// Which of the four counts of a run.
@@ -94,6 +107,20 @@ impl Grid {
         limits
     }
 
+    /// One count of all cells, as it is drawn.
+    pub(crate) fn heat_map(&self, heading: &str, count: Count) -> HeatMap {
+        let names = |limits: &[Limit]| limits.iter().map(ToString::to_string).collect();
+        let (rows, columns) = (self.fluid_limits(), self.structure_limits());
+        let cells =
+            rows.iter().flat_map(|&fluid| columns.iter().map(move |&structure| Limits { fluid, structure }));
+        HeatMap {
+            heading: heading.to_owned(),
+            values: cells.map(|limits| self.get(limits).map(|counts| count.of(counts))).collect(),
+            rows: names(&rows),
+            columns: names(&columns),
+        }
+    }
+
     /// The cells with one N^f, all of them or `None`.
     pub(crate) fn row(&self, fluid: Limit) -> Option<Vec<(Limit, Counts)>> {
         let cells = self.cells.iter().filter(|(limits, _)| limits.fluid == fluid);
@@ -119,8 +146,53 @@ impl Grid {
     }
 }
 
+/// One count of two grids with the same settings, each below its heading.
+pub(crate) fn heat_maps(title: &str, grids: [(&str, &Grid); 2], count: Count) -> String {
+    let [first, second] = grids.map(|(heading, grid)| grid.heat_map(heading, count));
+    side_by_side(title, [&first, &second], "rows: N^f, columns: N^s")
+}
+
 impl FromIterator<(Limits, Option<Counts>)> for Grid {
     fn from_iter<I: IntoIterator<Item = (Limits, Option<Counts>)>>(cells: I) -> Self {
         Self { cells: cells.into_iter().collect() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use partita::output::{Clock, Ending, Summary, Totals};
+
+    #[test]
+    fn an_unconverged_run_has_no_counts() {
+        let counts = |unconverged_steps| {
+            let totals = Totals {
+                steps: 5,
+                unconverged_steps,
+                coupling_iterations: 62,
+                newton_fluid: 63,
+                newton_structure: 61,
+                ..Totals::default()
+            };
+            let summary = Summary::new(Ending::Completed, &totals, &Clock::start().spent());
+            counts_of(&Outcome::of(summary))
+        };
+        assert_eq!(counts(0), Some(Counts { coupling: 62, fluid: 63, structure: 61 }));
+        assert_eq!(counts(1), None);
+    }
+
+    #[test]
+    fn a_heat_map_has_the_cells_row_by_row() {
+        let counts = |coupling| Some(Counts { coupling, fluid: 0, structure: 0 });
+        let cells = [
+            (("1", "1"), counts(1)),
+            (("1", "2"), counts(2)),
+            (("inf", "1"), None),
+            (("inf", "2"), counts(4)),
+        ];
+        let grid: Grid = cells.map(|((f, s), counts)| (Limits::of(f, s), counts)).into_iter().collect();
+        let map = grid.heat_map("ours", Count::Coupling);
+        assert_eq!((map.rows.join(" "), map.columns.join(" ")), ("1 inf".to_owned(), "1 2".to_owned()));
+        assert_eq!(map.values, [Some(1), Some(2), None, Some(4)]);
     }
 }

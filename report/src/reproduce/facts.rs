@@ -1,11 +1,13 @@
-//! What is known about a case: the stuff that claims are judged on.
+//! What is known about a case, and what claims are judged on.
 
 use std::collections::BTreeMap;
 
+use partita::output::Seconds;
+
 use super::case::Case;
-use super::counts::{Counts, Grid};
-use super::run::{Outcome, Seconds};
+use super::counts::{Counts, Grid, counts_of};
 use super::setting::{Adaptive, Limits, Setting};
+use crate::run::Outcome;
 
 /// Counts and observations of one case, the paper's or ours.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,7 +101,7 @@ impl Cost {
         let summary = &outcome.summary;
         Some(Self {
             setting,
-            counts: outcome.counts()?,
+            counts: counts_of(outcome)?,
             wall_seconds: summary.wall_seconds,
             cpu_seconds: summary.cpu_seconds.unwrap_or(summary.wall_seconds),
             seconds: summary.seconds,

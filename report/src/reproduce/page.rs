@@ -7,12 +7,12 @@ use std::path::Path;
 
 use super::case::Case;
 use super::claims::{Judged, judge};
-use super::counts::Count;
+use super::counts::{Count, heat_maps};
 use super::facts::Facts;
-use super::heat_map;
 use super::published::Published;
 use super::results;
 use super::substitutes::{Substitute, of_scene};
+use crate::report::File;
 use crate::sensitivity;
 use crate::task::{self, TaskError};
 
@@ -48,21 +48,18 @@ impl Page {
         Ok(Self { published, ours, judged, substitutes, sensitivity, remarks })
     }
 
-    pub(crate) fn judged(&self) -> &[Judged] {
-        &self.judged
-    }
-
-    /// Path and text of the page and of each of its figures.
-    pub(crate) fn files(&self) -> Vec<(String, String)> {
+    /// The page, each of its figures, and the verdict on each claim.
+    pub(crate) fn files(&self) -> Vec<File> {
         let mut files = vec![(FILE.to_owned(), self.text())];
         for (facts, published) in self.ours.iter().zip(&self.published.facts) {
             for count in [Count::Coupling, Count::Newton] {
                 let title = format!("{}: {}", facts.case.scene(), count.title());
                 let panels = [("published", &published.grid), ("ours", &facts.grid)];
                 let path = format!("docs/{}", heat_map_path(facts.case, count));
-                files.push((path, heat_map::side_by_side(&title, panels, count)));
+                files.push((path, heat_maps(&title, panels, count)));
             }
         }
+        files.push((results::path("claims.csv"), results::claims_table(&self.judged).to_text()));
         files
     }
 
@@ -137,8 +134,10 @@ mod tests {
         let page = perfect();
         let files = page.files();
         let text = &files[0].1;
-        assert!(files.len() > 1, "the page has figures");
-        for (path, _) in &files[1..] {
+        let figures: Vec<&str> =
+            files.iter().filter(|(_, text)| text.contains("<svg")).map(|(path, _)| path.as_str()).collect();
+        assert_eq!(figures.len(), 4);
+        for path in figures {
             let link = path.strip_prefix("docs/").expect("figures stand beside the page");
             assert!(text.contains(&format!("({link})")), "{link}");
         }

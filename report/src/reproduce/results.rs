@@ -2,18 +2,47 @@
 
 use std::path::{Path, PathBuf};
 
+use partita::output::Seconds;
+
 use super::case::Case;
 use super::claims::Judged;
 use super::counts::{Count, Counts, deviation};
 use super::facts::{Cost, Facts, Relaxation};
 use super::published::Published;
-use super::run::Seconds;
 use super::setting::{Adaptive, Limits, Setting};
 use crate::csv::{Csv, Row};
-use crate::task::{self, TaskError};
+use crate::kept::{self, COUNT, EXACT};
+use crate::report::Table;
+use crate::task::TaskError;
+
+const FOLDER: &str = "paper/results";
 
 pub(crate) fn folder(root: &Path) -> PathBuf {
-    root.join("paper/results")
+    root.join(FOLDER)
+}
+
+/// A file in `paper/results`, from the root of the workspace.
+pub(crate) fn path(name: &str) -> String {
+    format!("{FOLDER}/{name}")
+}
+
+/// A table of `paper/results`.
+pub(crate) fn table(
+    name: &str,
+    rows: Csv,
+    differences: fn(&Csv, &Csv) -> Result<Vec<String>, TaskError>,
+) -> Table {
+    Table { path: path(name), rows, differences }
+}
+
+/// Counts of a case at a setting.
+pub(crate) fn same_settings(kept: &Csv, found: &Csv) -> Result<Vec<String>, TaskError> {
+    same_counts(&["case", "setting"], kept, found)
+}
+
+/// Counts in rows that are named by these columns.
+pub(crate) fn same_counts(key: &[&str], kept: &Csv, found: &Csv) -> Result<Vec<String>, TaskError> {
+    kept::differences(key, &Count::ALL.map(|count| (count.column(), COUNT)), kept, found)
 }
 
 /// Facts about a case that nobody ran.
@@ -28,16 +57,27 @@ pub(crate) fn nothing(case: Case) -> Facts {
     }
 }
 
-/// Writes the tables, the observations beside them and the times.
-pub(crate) fn write(root: &Path, ours: &[Facts; 2], published: &Published) -> Result<(), TaskError> {
-    let folder = folder(root);
-    for facts in ours.iter().filter(|facts| !facts.grid.cells.is_empty()) {
-        let table = grid_table(facts, published.of(facts.case));
-        task::write(&folder.join(format!("table{}.csv", facts.case.table())), &table.to_text())?;
-    }
-    task::write(&folder.join("table3.csv"), &adaptive_table(ours, published).to_text())?;
-    task::write(&folder.join("observations.csv"), &observations(ours).to_text())?;
-    task::write(&folder.join("cost.csv"), &cost_table(ours).to_text())
+/// The tables, the observations beside them and the times.
+pub(crate) fn tables(ours: &[Facts; 2], published: &Published) -> Vec<Table> {
+    let grids = ours.iter().filter(|facts| !facts.grid.cells.is_empty()).map(|facts| {
+        let rows = grid_table(facts, published.of(facts.case));
+        table(&format!("table{}.csv", facts.case.table()), rows, |kept, found| {
+            same_counts(&["n_f", "n_s"], kept, found)
+        })
+    });
+    let others = [
+        table("table3.csv", adaptive_table(ours, published), same_settings),
+        table("observations.csv", observations(ours), |kept, found| {
+            let columns =
+                [("constant_relaxation", EXACT), ("failing_step", EXACT), ("longest_structure_call", COUNT)];
+            kept::differences(&["case"], &columns, kept, found)
+        }),
+        // Times: the settings are compared, and no number.
+        table("cost.csv", cost_table(ours), |kept, found| {
+            kept::differences(&["case", "setting"], &[], kept, found)
+        }),
+    ];
+    grids.chain(others).collect()
 }
 
 /// Reads them again; what was never run is missing from the facts.
@@ -81,11 +121,7 @@ pub(crate) fn read(root: &Path) -> Result<[Facts; 2], TaskError> {
     Ok(ours)
 }
 
-/// Writes what the claims come to.
-pub(crate) fn write_claims(root: &Path, judged: &[Judged]) -> Result<(), TaskError> {
-    task::write(&folder(root).join("claims.csv"), &claims_table(judged).to_text())
-}
-
+/// What the claims come to.
 pub(crate) fn claims_table(judged: &[Judged]) -> Csv {
     let mut table = Csv::new(["id", "statement", "holds", "evidence"]);
     for judged in judged {
@@ -228,7 +264,7 @@ fn cost(row: Row<'_>, setting: Setting, counts: Counts) -> Result<Cost, TaskErro
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::task::workspace_root;
+    use crate::task::{self, workspace_root};
 
     fn ours(published: &Published) -> [Facts; 2] {
         let mut ours = published.facts.clone();
@@ -247,7 +283,9 @@ mod tests {
         let published = Published::read(workspace_root()).expect("the files are there");
         let root = tempfile::tempdir().expect("a folder");
         let ours = ours(&published);
-        write(root.path(), &ours, &published).expect("it can be written");
+        for Table { path, rows, .. } in tables(&ours, &published) {
+            task::write(&root.path().join(path), &rows.to_text()).expect("it can be written");
+        }
         assert_eq!(read(root.path()).expect("it can be read"), ours);
     }
 

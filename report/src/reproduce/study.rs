@@ -1,11 +1,18 @@
 //! The runs that the facts about a case need, and the facts they give.
 
 use super::case::{Case, product};
+use super::counts::counts_of;
 use super::facts::{Cost, Facts, Relaxation};
-use super::run::{Outcome, Run};
 use super::setting::{Adaptive, Limits, Setting};
-use super::workshop::{Spent, Workshop};
+use crate::run::{Outcome, Run};
+use crate::runs::{Runs, Spent};
 use crate::task::TaskError;
+
+/// The whole run of a case at a setting, with some keys of its scene changed.
+pub(crate) fn run(case: Case, setting: Setting, changes: &[String]) -> Run<'static> {
+    let run = Run::new(format!("{} {setting}", case.short()), format!("scenes/{}", case.scene()));
+    run.without_fields().with(&setting.overrides()).with(changes)
+}
 
 /// A case at a number of settings, with some keys of its scene changed.
 #[derive(Debug, Clone)]
@@ -46,15 +53,15 @@ impl Study {
     }
 
     /// All runs; that with constant relaxation, which the beam has anyway, comes last.
-    pub(crate) fn runs(&self) -> Vec<Run> {
-        let mut runs: Vec<Run> =
-            self.settings().map(|setting| Run::new(self.case, setting).with(&self.changes)).collect();
+    pub(crate) fn runs(&self) -> Vec<Run<'static>> {
+        let mut runs: Vec<Run<'static>> =
+            self.settings().map(|setting| run(self.case, setting, &self.changes)).collect();
         if self.relaxation && self.case == Case::Tank {
             // A scene has one acceleration: options of the one that is replaced go with it.
             let others = self.changes.iter().filter(|key| !key.starts_with("coupling.acceleration."));
             let others: Vec<String> = others.cloned().collect();
-            let relaxed = Run::new(self.case, Setting::Fixed(Limits::UNLIMITED)).with(&others);
-            runs.push(relaxed.with(&["coupling.acceleration.constant.relaxation=0.8".to_owned()]));
+            let relaxed = run(self.case, Setting::Fixed(Limits::UNLIMITED), &others);
+            runs.push(relaxed.with(&["coupling.acceleration.constant.relaxation=0.8"]));
         }
         runs
     }
@@ -72,7 +79,7 @@ impl Study {
             grid: seen
                 .iter()
                 .filter_map(|(setting, outcome)| match setting {
-                    Setting::Fixed(limits) => Some((*limits, outcome.counts())),
+                    Setting::Fixed(limits) => Some((*limits, counts_of(outcome))),
                     Setting::Adaptive(_) => None,
                 })
                 .collect(),
@@ -80,36 +87,48 @@ impl Study {
                 .iter()
                 .filter_map(|(setting, outcome)| match setting {
                     Setting::Fixed(_) => None,
-                    Setting::Adaptive(adaptive) => Some((*adaptive, outcome.counts())),
+                    Setting::Adaptive(adaptive) => Some((*adaptive, counts_of(outcome))),
                 })
                 .collect(),
             relaxation: self.relaxation.then(|| relaxed.map(Relaxation::seen)).flatten(),
-            longest_structure_call: unlimited.map(|(_, outcome)| outcome.longest_structure_call),
+            longest_structure_call: unlimited.map(|(_, outcome)| outcome.longest_call("structure")),
             costs: seen.iter().filter_map(|(setting, outcome)| Cost::seen(*setting, outcome)).collect(),
         }
     }
 }
 
-/// Does the runs of all studies in one batch and returns the facts of each.
-pub(crate) fn carry_out(
-    workshop: &Workshop<'_>,
-    studies: &[Study],
-) -> Result<(Vec<Facts>, Spent), TaskError> {
-    let runs: Vec<Vec<Run>> = studies.iter().map(Study::runs).collect();
-    let (outcomes, spent) = workshop.run_all(&runs.concat())?;
+/// Does the runs of all studies in one batch, says what they cost, and returns the facts of each.
+pub(crate) fn carry_out_all(runs: &Runs, studies: &[Study]) -> Result<Vec<Facts>, TaskError> {
+    let wanted: Vec<Vec<Run<'static>>> = studies.iter().map(Study::runs).collect();
+    let counts: Vec<usize> = wanted.iter().map(Vec::len).collect();
+    let (outcomes, spent) = runs.all(&wanted.into_iter().flatten().collect::<Vec<_>>())?;
+    let Spent { done, wall_seconds, cpu_seconds } = spent;
+    eprintln!(
+        "{done} runs done, the others remembered: {wall_seconds:.1} s, {cpu_seconds:.1} s of processor time"
+    );
     let mut rest = outcomes.as_slice();
-    let mut facts = Vec::new();
-    for (study, runs) in studies.iter().zip(&runs) {
-        let (own, others) = rest.split_at(runs.len());
-        facts.push(study.facts(own));
+    let facts = |(study, count): (&Study, usize)| {
+        let (own, others) = rest.split_at(count);
         rest = others;
-    }
-    Ok((facts, spent))
+        study.facts(own)
+    };
+    Ok(studies.iter().zip(counts).map(facts).collect())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_run_is_a_scene_with_the_keys_of_a_setting() {
+        let run = run(Case::Beam, Setting::Fixed(Limits::of("1", "inf")), &["fluid.viscosity=2".to_owned()]);
+        assert_eq!((run.name.as_str(), run.scene.as_str()), ("beam 1/inf", "scenes/beam-in-channel"));
+        assert_eq!(
+            run.overrides.join(" "),
+            "output.fields_every=0 output.checkpoint_every=0 coupling.newton.fixed.fluid=1 \
+             coupling.newton.fixed.structure=unlimited fluid.viscosity=2"
+        );
+    }
 
     #[test]
     fn the_three_tables_are_sixty_six_runs() {

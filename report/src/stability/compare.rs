@@ -5,6 +5,8 @@
 //! the Newton iterations of all the converged cells of a choice by [`CHOICE`], as in the reproduction of the paper.
 
 use super::table::{Cell, Table};
+use crate::csv::Csv;
+use crate::task::TaskError;
 
 /// Largest difference of a cell's mean iterations: half an iteration, or this part of it.
 const CELL: f64 = 0.1;
@@ -12,7 +14,11 @@ const CELL: f64 = 0.1;
 const CHOICE: f64 = 0.02;
 
 /// What differs, a line each.
-pub(super) fn differences(kept: &Table, found: &Table) -> Vec<String> {
+pub(super) fn differences(kept: &Csv, found: &Csv) -> Result<Vec<String>, TaskError> {
+    Ok(between(&Table::read(kept)?, &Table::read(found)?))
+}
+
+fn between(kept: &Table, found: &Table) -> Vec<String> {
     let place = |cell: &Cell| (cell.choice.clone(), cell.values.clone());
     let mut all = Vec::new();
     if kept.cells.iter().map(place).ne(found.cells.iter().map(place)) {
@@ -78,7 +84,7 @@ mod tests {
     #[test]
     fn outcomes_are_the_same_and_counts_almost() {
         let kept = table(&[cell("1", "converged", 5.0, 1000), cell("2", "diverged", 3.0, 50)]);
-        let found = |cells: &[Cell]| differences(&kept, &table(cells)).len();
+        let found = |cells: &[Cell]| between(&kept, &table(cells)).len();
         assert_eq!(found(&[cell("1", "converged", 5.4, 1019), cell("2", "diverged", 9.0, 90)]), 0);
         assert_eq!(found(&[cell("1", "converged", 5.6, 1000), cell("2", "diverged", 3.0, 50)]), 1);
         assert_eq!(found(&[cell("1", "converged", 5.0, 1021), cell("2", "diverged", 3.0, 50)]), 1);

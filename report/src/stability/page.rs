@@ -2,11 +2,12 @@
 
 use super::table::{Cell, Map, Table};
 use super::{data, figure};
+use crate::markdown;
 
 const HEAD: &str = include_str!("head.md");
 
 /// The page.
-pub(super) fn markdown(maps: &[(Map, Table)]) -> String {
+pub(super) fn text(maps: &[(Map, Table)]) -> String {
     let mut text = HEAD.to_owned();
     for (map, table) in maps {
         section(&mut text, map, table);
@@ -38,41 +39,40 @@ fn summary(text: &mut String, map: &Map, table: &Table) {
     let has = |measure: fn(&Cell) -> Option<f64>| table.cells.iter().any(|cell| measure(cell).is_some());
     let (oscillates, moves) = (has(|cell| cell.pressure_oscillation), has(|cell| cell.mesh_quality));
     let retried = table.cells.iter().any(|cell| cell.retries > 0);
-    text.push_str("| choice | converged | iterations a step, mean | most |");
+    let mut header = vec!["choice", "converged", "iterations a step, mean", "most"];
     let more = [
-        (retried, " steps halved |"),
-        (oscillates, " largest pressure oscillation |"),
-        (moves, " worst cell shape |"),
+        (retried, "steps halved"),
+        (oscillates, "largest pressure oscillation"),
+        (moves, "worst cell shape"),
     ];
-    let more = more.map(|(there, head)| if there { head } else { "" });
-    text.push_str(&format!("{}\n|---|---:|---:|---:|", more.concat()));
-    text.push_str(&"---:|".repeat(more.iter().filter(|head| !head.is_empty()).count()));
-    text.push('\n');
+    header.extend(more.iter().filter(|(there, _)| *there).map(|(_, name)| *name));
+    let mut lines = Vec::new();
     for choice in &map.choices {
         let cells = table.of(&choice.name);
         let good: Vec<&Cell> = cells.clone().filter(|cell| cell.converged()).collect();
         let means: Vec<f64> = good.iter().filter_map(|cell| cell.mean_iterations).collect();
         let mean = means.iter().sum::<f64>() / means.len().max(1) as f64;
         let most = good.iter().filter_map(|cell| cell.max_iterations).max().unwrap_or(0);
-        text.push_str(&format!(
-            "| {} | {} of {} | {mean:.1} | {most} |",
-            choice.name,
-            good.len(),
-            cells.clone().count()
-        ));
+        let mut line = vec![
+            choice.name.clone(),
+            format!("{} of {}", good.len(), cells.clone().count()),
+            format!("{mean:.1}"),
+            most.to_string(),
+        ];
         if retried {
-            text.push_str(&format!(" {} |", cells.clone().map(|cell| cell.retries).sum::<usize>()));
+            line.push(cells.clone().map(|cell| cell.retries).sum::<usize>().to_string());
         }
         if oscillates {
             let worst = good.iter().filter_map(|cell| cell.pressure_oscillation).fold(0.0, f64::max);
-            text.push_str(&format!(" {worst:.3} |"));
+            line.push(format!("{worst:.3}"));
         }
         if moves {
             let worst = good.iter().filter_map(|cell| cell.mesh_quality).fold(1.0, f64::min);
-            text.push_str(&format!(" {worst:.3} |"));
+            line.push(format!("{worst:.3}"));
         }
-        text.push('\n');
+        lines.push(line);
     }
+    text.push_str(&markdown::table(&header, &lines));
 }
 
 /// What did not converge: for each choice and outcome how often, and its first cell in the program's words.
@@ -122,23 +122,17 @@ fn filled(map: &Map, table: &Table) -> String {
 fn measures(map: &Map, table: &Table, measure: fn(&Cell) -> Option<f64>) -> String {
     let [rows, columns] = &map.axes;
     let count = columns.values.len();
-    let first = table.cells.iter().take(count).map(|cell| cell.values[1].clone()).collect::<Vec<_>>();
-    let first = first.join(" | ");
-    let mut text = format!(
-        "| choice | {} \\ {} | {first} |\n|---|---:|{}\n",
-        rows.label(),
-        columns.label(),
-        "---:|".repeat(count)
-    );
-    for line in table.cells.chunks(count) {
+    let values = table.cells.iter().take(count).map(|cell| cell.values[1].clone());
+    let corner = format!("{} \\ {}", rows.label(), columns.label());
+    let header: Vec<String> = ["choice".to_owned(), corner].into_iter().chain(values).collect();
+    let line = |line: &[Cell]| -> Vec<String> {
         let values = line.iter().map(|cell| match measure(cell).filter(|_| cell.converged()) {
-            Some(value) => format!(" {} |", three_digits(value)),
-            None => " - |".to_owned(),
+            Some(value) => three_digits(value),
+            None => "-".to_owned(),
         });
-        let values: String = values.collect();
-        text.push_str(&format!("| {} | {} |{values}\n", line[0].choice, line[0].values[0]));
-    }
-    text
+        [line[0].choice.clone(), line[0].values[0].clone()].into_iter().chain(values).collect()
+    };
+    markdown::table(&header, &table.cells.chunks(count).map(line).collect::<Vec<_>>())
 }
 
 fn three_digits(value: f64) -> String {

@@ -50,8 +50,7 @@ impl Axis {
 impl Map {
     pub(super) fn read(root: &Path, name: &str) -> Result<Self, TaskError> {
         let path = root.join("maps").join(format!("{name}.toml"));
-        let file: File = toml::from_str(&task::read(&path)?)
-            .map_err(|error| TaskError::Failed(format!("{}: {error}", path.display())))?;
+        let file: File = task::read_toml(&path)?;
         Ok(Self {
             name: name.to_owned(),
             title: file.title,
@@ -88,15 +87,12 @@ pub(super) struct Cell {
 }
 
 impl Table {
-    pub(super) fn read(path: &Path) -> Result<Self, TaskError> {
-        let text = task::read(path)?;
+    /// The cells in a table.
+    pub(super) fn read(table: &Csv) -> Result<Self, TaskError> {
         // The parameters have names of their own; they stand in the second and the third column.
-        let header: Vec<&str> = text.lines().next().unwrap_or_default().split(',').collect();
-        let [_, first, second, ..] = header[..] else {
-            return Err(TaskError::Failed(format!("{}: no table of a map", path.display())));
+        let [_, first, second, ..] = table.header() else {
+            return Err(TaskError::Failed("this is no table of a map".to_owned()));
         };
-        let table =
-            Csv::parse(&text).map_err(|what| TaskError::Failed(format!("{}: {what}", path.display())))?;
         let cell = |row: crate::csv::Row<'_>| -> Result<Cell, TaskError> {
             Ok(Cell {
                 choice: row.text("accelerator")?.to_owned(),

@@ -25,7 +25,7 @@ const STRANGERS: [(&str, &str); 8] = [
 /// Dependencies from outside that belong to few rooms: heavy ones, and those that read settings, print or draw.
 const RESERVED: [(&str, &[&str]); 5] = [
     ("faer", &["numerics"]),
-    ("clap", &["cli"]),
+    ("clap", &["cli", "report"]),
     ("indicatif", &["cli", "report"]),
     ("miette", &["scene", "partita", "sweep", "cli", "fuzz"]),
     ("toml", &["scene", "partita", "sweep", "iga", "report", "xtask"]),

@@ -30,8 +30,8 @@ mod tests {
     use super::super::samples::published;
     use super::*;
     use crate::reproduce::facts::Cost;
-    use crate::reproduce::run::Seconds;
     use crate::reproduce::setting::Setting;
+    use partita::output::Seconds;
 
     /// Costs of the published counts, had every iteration cost the same.
     fn priced(facts: &mut Facts, transfer: f64) {

@@ -1,11 +1,11 @@
 //! The parts of the page that are not tables of counts.
 
+use crate::markdown::{prose_table, table};
 use crate::reproduce::case::Case;
 use crate::reproduce::claims::{Judged, word};
 use crate::reproduce::cost::{Prices, time_follows, time_follows_newton};
 use crate::reproduce::counts::Count;
 use crate::reproduce::facts::{Cost, Facts};
-use crate::reproduce::markdown::{prose_table, table};
 use crate::reproduce::substitutes::Substitute;
 
 /// How many claims hold, and which do not.
@@ -179,7 +179,7 @@ pub(super) fn snapshots() -> String {
         (Case::Tank, "The tank at t = 0.2 s: mesh, pressure, and the deformed bottom"),
         (Case::Beam, "The beam at t = 0.25 s: mesh, speed, and the deformed beam"),
     ] {
-        text += &format!("\n![{what}]({})\n\n{what}.\n", crate::picture::path(case));
+        text += &format!("\n![{what}]({})\n\n{what}.\n", crate::snapshot::path(case));
     }
     text
 }

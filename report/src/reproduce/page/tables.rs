@@ -1,10 +1,10 @@
 //! The paper's tables side by side with ours, and how far they are apart.
 
 use super::heat_map_path;
+use crate::markdown::{percent, table};
 use crate::reproduce::case::Case;
 use crate::reproduce::counts::{Count, Counts, deviation};
 use crate::reproduce::facts::Facts;
-use crate::reproduce::markdown::{percent, table};
 use crate::reproduce::published::Published;
 use crate::reproduce::setting::{Adaptive, Limits, Setting};
 

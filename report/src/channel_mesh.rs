@@ -1,4 +1,4 @@
-//! The channel's mesh round a beam of another thickness.
+//! The mesh of the channel around a beam of another thickness.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ const MESH: &str = "scenes/beam-in-channel/channel.msh";
 
 /// Writes the scene's mesh to `folder`, with the beam's sides moved to its new `thickness` \[m\] and the channel on both
 /// sides stretched linearly, and returns the file's path.
-pub(crate) fn channel(root: &Path, folder: &Path, thickness: f64) -> Result<PathBuf, TaskError> {
+pub(crate) fn with_beam(root: &Path, folder: &Path, thickness: f64) -> Result<PathBuf, TaskError> {
     let text = task::read(&root.join(MESH))?;
     let moved = moved(&text, thickness / 2.0)
         .ok_or_else(|| TaskError::Failed(format!("{MESH}: no mesh of format 4.1 in text")))?;

@@ -1,9 +1,8 @@
-//! Mesh, field and structure in one drawing.
+//! A scalar field on a moved mesh, and the structure beside it, in one drawing.
 
-use super::vtu::Piece;
-use partita_charts::axis::{LinearAxis, rounded};
-use partita_charts::svg::{Anchor, Colour, Dash, Svg};
-use partita_charts::text;
+use crate::axis::{LinearAxis, rounded};
+use crate::svg::{Anchor, Colour, Dash, Svg};
+use crate::text;
 
 /// Longer side of what is drawn, in pixels.
 const EXTENT: f64 = 620.0;
@@ -14,11 +13,19 @@ const HEAD: f64 = 40.0;
 /// The bar of colours with its labels.
 const BAR: f64 = 110.0;
 const SMALL: f64 = 11.0;
-/// Each triangle is coloured in so many parts a side, for the field is linear in it.
-const PARTS: usize = 1;
+
+/// Cells in the plane.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Grid {
+    /// Places \[m\].
+    pub points: Vec<[f64; 2]>,
+    /// Corners of each cell.
+    pub cells: Vec<Vec<usize>>,
+}
 
 /// A scalar field and the range of its colours.
-pub(super) struct Scale {
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scale {
     label: String,
     values: Vec<f64>,
     low: f64,
@@ -26,8 +33,9 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// Colours from the smallest to the largest value.
-    pub(super) fn new(name: &str, unit: &str, values: Vec<f64>) -> Self {
+    /// Colours from the smallest to the largest value; there is one value for each point.
+    #[must_use]
+    pub fn new(name: &str, unit: &str, values: Vec<f64>) -> Self {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         Self { label: format!("{name} [{unit}]"), values, low, high }
@@ -59,8 +67,9 @@ impl View {
     }
 }
 
-/// The fluid's mesh coloured by the field, and the structure, both where they are.
-pub(super) fn deformed(title: &str, fluid: &Piece, structure: &Piece, scale: &Scale) -> String {
+/// The fluid's triangles coloured by the mean of the field at their corners, and the structure, both where they are.
+#[must_use]
+pub fn deformed(title: &str, fluid: &Grid, structure: &Grid, scale: &Scale) -> String {
     let points = || fluid.points.iter().chain(&structure.points);
     let least = |axis: usize| points().map(|point| point[axis]).fold(f64::INFINITY, f64::min);
     let most = |axis: usize| points().map(|point| point[axis]).fold(f64::NEG_INFINITY, f64::max);
@@ -109,51 +118,39 @@ fn axes(svg: &mut Svg, low: [f64; 2], high: [f64; 2], [width, height]: [f64; 2])
     svg.text_upwards([16.0, HEAD + 0.5 * height], SMALL, Colour::BLACK, "y [m]");
 }
 
-/// The colours of a triangle, then its edges.
-fn triangle(svg: &mut Svg, view: &View, cell: &[usize], fluid: &Piece, scale: &Scale) {
+/// The colour of a triangle, then its edges.
+fn triangle(svg: &mut Svg, view: &View, cell: &[usize], fluid: &Grid, scale: &Scale) {
     let &[a, b, c] = cell else { return };
     let corners = [a, b, c].map(|corner| view.place(fluid.points[corner]));
-    let values = [a, b, c].map(|corner| scale.values[corner]);
-    let part = PARTS as f64;
-    let at = |i: usize, j: usize| {
-        let (s, t) = (i as f64 / part, j as f64 / part);
-        let mix = |x: [f64; 3]| (1.0 - s - t) * x[0] + s * x[1] + t * x[2];
-        ([mix(corners.map(|p| p[0])), mix(corners.map(|p| p[1]))], mix(values))
-    };
-    let mut patch = |nodes: [(usize, usize); 3]| {
-        let nodes = nodes.map(|(i, j)| at(i, j));
-        let mean = nodes.iter().map(|(_, value)| value).sum::<f64>() / 3.0;
-        svg.polygon(&nodes.map(|(place, _)| place), scale.colour(mean));
-    };
-    for i in 0..PARTS {
-        for j in 0..PARTS - i {
-            patch([(i, j), (i + 1, j), (i, j + 1)]);
-            if i + j + 1 < PARTS {
-                patch([(i + 1, j), (i + 1, j + 1), (i, j + 1)]);
-            }
-        }
-    }
+    let mean = [a, b, c].iter().map(|&corner| scale.values[corner]).sum::<f64>() / 3.0;
+    svg.polygon(&corners, scale.colour(mean));
     svg.outline(&corners, Colour::GREY, 0.35);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::vtu::tests::square;
-    use partita_charts::legible::faults;
+    use crate::legible::faults;
+
+    /// A unit square in two triangles.
+    fn square() -> Grid {
+        Grid {
+            points: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+            cells: vec![vec![0, 1, 2], vec![0, 2, 3]],
+        }
+    }
 
     #[test]
     fn every_triangle_is_coloured_and_outlined_within_the_sheet() {
-        let piece = square();
+        let grid = square();
         let scale = Scale::new("pressure", "Pa", vec![0.0, 1.0, 1.0, 0.0]);
-        let text = deformed("square", &piece, &piece, &scale);
+        let text = deformed("square", &grid, &grid, &scale);
         let count = |needle: &str| text.matches(needle).count();
         assert_eq!(faults(&text), Vec::<String>::new());
         let outlines =
             text.lines().filter(|line| line.starts_with("<polygon") && line.contains("fill=\"none\""));
         assert_eq!(outlines.count(), 2, "an outline for each triangle");
-        let coloured = 2 * PARTS * PARTS;
-        assert_eq!(count("<polygon"), coloured + 2 + piece.cells.len());
+        assert_eq!(count("<polygon"), 2 + 2 + grid.cells.len());
         // The corner at the origin lies below left.
         assert!(text.contains(&format!("{:.1},{:.1}", LEFT, HEAD + EXTENT)), "{text}");
     }

@@ -254,6 +254,12 @@ impl<A: Participant, B: Participant> March<A, B> {
         (self.choices.accelerator, self.choices.is_custom) = (accelerator, true);
     }
 
+    /// The accelerator.
+    #[must_use]
+    pub fn accelerator(&self) -> &dyn Accelerator {
+        self.choices.accelerator.as_ref()
+    }
+
     /// Exchanges all choices.
     ///
     /// # Panics

@@ -27,6 +27,19 @@ pub struct StructureModel<const D: usize> {
 }
 
 impl<const D: usize> StructureModel<D> {
+    /// A structure under no load that nothing holds, of a density `[kg/m^3]` and a material.
+    #[must_use]
+    pub fn new(density: f64, material: impl Into<AnyMaterial<D>>) -> Self {
+        Self {
+            density,
+            material: material.into(),
+            body_force: BodyForce::Constant([0.0; D]),
+            clamped: Boundary::NONE,
+            held: Vec::new(),
+            wetted: Boundary::NONE,
+        }
+    }
+
     pub(crate) fn check(&self) -> Result<(), StructureError> {
         if !(self.density > 0.0 && self.density.is_finite()) {
             return Err(StructureError::Density { value: self.density });

@@ -13,8 +13,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mesh = rectangle(&RectangleMesh { size: [1.0, 0.5], divisions: [8, 4], ..Default::default() })?;
     let top = ("top", Traction(Arc::new(|_, t| [0.0, -100.0 * t])));
     let boundary = [("left", NoSlip), ("right", NoSlip), top, ("bottom", Interface)];
-    let water = FluidModel::new(1000.0, 10.0, boundary);
-    let fluid = FluidSolver::new(mesh, water, FluidSettings::default())?;
+    let fluid = FluidSolver::new(mesh, FluidModel::new(1000.0, 10.0, boundary), FluidSettings::default())?;
     let patch = build::rectangle([0.0, -0.1], [1.0, 0.1], [2, 2], [8, 1])?;
     let rubber = Material::new(Law::StVenantKirchhoff, 2e6, 0.3, Plane::Strain)?;
     let clamped = [Side::LEFT, Side::RIGHT].into();

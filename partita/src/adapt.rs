@@ -12,8 +12,8 @@ use std::error::Error;
 
 use partita_coupling::port::total_len;
 use partita_coupling::{
-    Block, Change, Effort, NewtonLimit, Participant, ParticipantError, PhaseTimes, SetupError, Step, WorkDetails,
-    state,
+    Block, Change, Effort, NewtonLimit, Participant, ParticipantError, PhaseTimes, SetupError, Step,
+    WorkDetails, state,
 };
 use partita_numerics::field::{Field, FieldWork, Part, StateMismatch};
 use partita_numerics::newton::{self, Bound, Failure, Limit, Report, ResidualNorm, ReusableTangent, Verdict};

@@ -51,7 +51,7 @@ fn run(arguments: &Run, clock: Clock) -> Result<ExitCode, Failure> {
     let resolved = scene::load(&arguments.scene.path, &arguments.scene.overrides)?;
     let dir = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(&resolved.name));
     let options = options(&arguments.manner);
-    let built = build::run_on(&resolved, options.threads())?;
+    let built = build::march_on(&resolved, options.threads())?;
     let warnings = warning::of(&resolved, &built);
     // What is denied is shown even to those who asked for quiet.
     if !arguments.manner.quiet || arguments.deny_warnings {
@@ -89,7 +89,7 @@ struct Checked {
 
 fn look_at(scene: &SceneArguments) -> Result<Checked, Failure> {
     let resolved = scene::load(&scene.path, &scene.overrides)?;
-    let run = build::run(&resolved)?;
+    let run = build::march(&resolved)?;
     check::look_ahead(&resolved, &run)?;
     Ok(Checked { description: check::describe(&resolved, &run), warnings: warning::of(&resolved, &run) })
 }

@@ -59,7 +59,7 @@ fn proposals(c: &mut Criterion) {
                 bench.iter_batched_ref(
                     || {
                         let mut fresh = method.build(size).expect("valid settings");
-                        fresh.restore(&accelerator.state()).expect("its own state");
+                        fresh.restore(&accelerator.save()).expect("its own state");
                         let (x, r) = iterate(fresh.as_mut(), size, STEPS);
                         (fresh, x, r)
                     },

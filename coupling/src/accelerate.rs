@@ -14,8 +14,6 @@ mod iqn_imvls;
 mod iqn_mvj;
 mod qr;
 
-use std::collections::VecDeque;
-
 use serde::{Deserialize, Serialize};
 
 pub use aitken::Aitken;
@@ -31,6 +29,9 @@ use crate::vector::add_scaled;
 
 /// Turns `(x, r)` into the next interface displacement.
 pub trait Accelerator: Send {
+    /// Name of the method, in records, checkpoints and messages.
+    fn name(&self) -> &str;
+
     /// Corrects the first participant's output `load` before the second one sees it; `x` is what led to it.
     /// Block methods need it, the others leave it alone.
     fn correct_first_output(&mut self, x: &[f64], load: &mut [f64]) {
@@ -47,14 +48,15 @@ pub trait Accelerator: Send {
     /// The step is given up: back to the state before it, bit for bit.
     fn step_failed(&mut self);
 
-    /// What lasts from step to step.
-    fn state(&self) -> AcceleratorState;
+    /// What lasts from step to step, in bytes that nobody else reads: [`state::encode`](crate::state::encode) makes them of
+    /// plain data.
+    fn save(&self) -> Vec<u8>;
 
-    /// Continues from a saved state, bit for bit.
+    /// Continues from the bytes of [`save`](Self::save), bit for bit.
     ///
     /// # Errors
-    /// When the state belongs to another method or another interface.
-    fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError>;
+    /// If the bytes belong to another method or to an interface of another size.
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError>;
 }
 
 /// What a residual is worth as evidence of how the fields respond.
@@ -82,6 +84,9 @@ pub struct Proposal {
     pub columns: usize,
     /// Columns dropped in this iteration.
     pub dropped: Vec<DroppedColumn>,
+    /// Name of the method, if it is none of those that settings can name; left out of the record otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub method: Option<String>,
 }
 
 impl Proposal {
@@ -156,36 +161,6 @@ impl Acceleration {
     }
 }
 
-/// What an accelerator keeps from step to step, as plain data.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum AcceleratorState {
-    /// Constant relaxation keeps nothing.
-    Constant,
-    /// Aitken's factor of the last iteration, if there was one.
-    Aitken {
-        /// The factor.
-        omega: Option<f64>,
-    },
-    /// The columns of the last steps.
-    IqnIls {
-        /// The columns, newest first.
-        columns: Columns,
-    },
-    /// The factored columns of the last steps.
-    IqnImvls {
-        /// The steps, newest first.
-        steps: VecDeque<StepInverse>,
-    },
-    /// The dense Jacobian.
-    IqnMvj {
-        /// `J`, row by row; empty before the first step with columns.
-        jacobian: Vec<f64>,
-        /// The columns of the last steps, newest first, where the history is limited.
-        past: VecDeque<Columns>,
-    },
-}
-
 /// Settings of the interface quasi-Newton methods.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -234,6 +209,11 @@ impl QuasiNewton {
     fn unseen_jacobian(&self) -> f64 {
         1.0 - self.omega_unseen
     }
+}
+
+/// The saved state of `method` is for an interface of another size.
+fn wrong_size(method: &str, size: usize) -> SetupError {
+    SetupError::state(method, format!("it is not for an interface of {size} unknowns"))
 }
 
 /// `x <- x + omega r`, where a quasi-Newton method has nothing to go by.

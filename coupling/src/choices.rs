@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::accelerate::{Acceleration, Accelerator};
+use crate::accelerate::{Acceleration, Accelerator, QuasiNewton};
 use crate::criterion::Criterion;
-use crate::policy::{NewtonPolicy, Policy};
+use crate::participant::NewtonLimit;
+use crate::policy::Policy;
 use crate::predict::Predictor;
 use crate::setup::SetupError;
 
@@ -37,6 +38,21 @@ pub struct CouplingSettings {
     pub at_limit: AtLimit,
 }
 
+impl Default for CouplingSettings {
+    /// IQN-IMVLS over the last five steps, every call to convergence, steps that end when every relative change is below 1e-5,
+    /// a constant predictor, at most 100 iterations per step: the defaults of a scene, which has to name its acceleration.
+    fn default() -> Self {
+        Self {
+            acceleration: Acceleration::IqnImvls(QuasiNewton::default()),
+            policy: Policy::Fixed { first: NewtonLimit::ToConvergence, second: NewtonLimit::ToConvergence },
+            criterion: Criterion::Changes { tolerance: 1e-5 },
+            predictor: Predictor::Constant,
+            max_iterations: 100,
+            at_limit: AtLimit::Fail,
+        }
+    }
+}
+
 impl CouplingSettings {
     /// Checks the settings and makes the objects they name, for an interface of `size` unknowns.
     ///
@@ -50,7 +66,8 @@ impl CouplingSettings {
         }
         Ok(Choices {
             accelerator: self.acceleration.build(size)?,
-            policy: Box::new(self.policy),
+            is_custom: false,
+            policy: self.policy,
             criterion: self.criterion.clone(),
             predictor: self.predictor,
             max_iterations: self.max_iterations,
@@ -63,8 +80,10 @@ impl CouplingSettings {
 pub struct Choices {
     /// From one iterate to the next.
     pub accelerator: Box<dyn Accelerator>,
+    /// Whether the accelerator is none that settings can name, so that records have to.
+    pub is_custom: bool,
     /// Newton limits of the calls.
-    pub policy: Box<dyn NewtonPolicy>,
+    pub policy: Policy,
     /// When a step is done.
     pub criterion: Criterion,
     /// Where a step starts.
@@ -73,4 +92,12 @@ pub struct Choices {
     pub max_iterations: usize,
     /// What happens at the bound.
     pub at_limit: AtLimit,
+}
+
+impl Choices {
+    /// The same choices with an accelerator of one's own; records name it.
+    #[must_use]
+    pub fn with_accelerator(self, accelerator: Box<dyn Accelerator>) -> Self {
+        Self { accelerator, is_custom: true, ..self }
+    }
 }

@@ -11,9 +11,6 @@ use thiserror::Error;
 pub use accelerator::check_accelerator;
 pub use participant::{ParticipantCheck, check_participant};
 
-use crate::participant::{NewtonLimit, Step};
-use crate::policy::NewtonPolicy;
-use crate::record::StepHistory;
 use crate::transfer::Transfer;
 use crate::vector::{dot, norm};
 
@@ -66,23 +63,6 @@ pub fn check_transfer(transfer: &dyn Transfer, components: usize, tolerance: f64
         }
     }
     Ok(())
-}
-
-/// Checks that a policy allows work in the first iteration, decides the same twice, and survives a restart.
-///
-/// # Errors
-/// The first violation.
-pub fn check_policy(policy: &mut dyn NewtonPolicy) -> Result<(), Violation> {
-    let subject = "Newton policy";
-    let history = StepHistory::new(Step { index: 1, time: 0.1, dt: 0.1 });
-    let state = policy.state();
-    let limits = policy.limits(&history);
-    for limit in [limits.first, limits.second] {
-        expect(subject, limit != NewtonLimit::AtMost(0), || "it allows no Newton iteration".to_owned())?;
-    }
-    expect(subject, policy.restore(&state).is_ok(), || "it refuses its own state".to_owned())?;
-    let again = policy.limits(&history);
-    expect(subject, again == limits, || format!("after a restart {limits:?} became {again:?}"))
 }
 
 /// Numbers between -1 and 1 without structure, the same in every run.

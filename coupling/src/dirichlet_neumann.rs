@@ -13,13 +13,14 @@
 
 use std::time::Instant;
 
+use crate::accelerate::{Answer, Proposal};
 use crate::choices::{AtLimit, Choices};
 use crate::divergence;
 use crate::error::{IdleField, StepFailure};
 use crate::observe::Observer;
-use crate::participant::{Participant, ParticipantError};
+use crate::participant::{Effort, NewtonLimit, Participant, ParticipantError};
 use crate::port::{self, Block};
-use crate::record::{FieldRecord, FieldSeconds, IterationRecord, Seconds, StepHistory};
+use crate::record::{FieldRecord, IterationRecord, Seconds, StepHistory};
 use crate::transfer::Transfers;
 use crate::vector::{dot, norm, ratio, subtract};
 
@@ -92,60 +93,38 @@ pub fn solve_step(
     history: &mut StepHistory,
     observer: &mut dyn Observer,
 ) -> Result<bool, StepFailure> {
-    let Choices { accelerator, policy, criterion, max_iterations, at_limit, .. } = choices;
-    for iteration in 1..=*max_iterations {
-        let limits = policy.limits(history);
-        let mut seconds = Seconds::default();
-        let mut clock = Instant::now();
+    for iteration in 1..=choices.max_iterations {
+        let limits = choices.policy.limits(history);
+        let mut time = Stopwatch::start();
+        let Interface { x, x_tilde, r, displacement, load, transferred_load } = interface;
 
-        transfers.apply(&interface.x, &mut interface.displacement);
-        seconds.transfer += lap(&mut clock);
+        transfers.apply(x, displacement);
+        time.lap(|seconds| &mut seconds.transfer);
+        let first_call = call(first, limits.first, displacement, load, history)?;
+        time.call(0, &first_call);
+        choices.accelerator.correct_first_output(x, load);
+        time.lap(|seconds| &mut seconds.acceleration);
+        transfers.apply_transpose(load, transferred_load);
+        time.lap(|seconds| &mut seconds.transfer);
+        let second_call = call(second, limits.second, transferred_load, x_tilde, history)?;
+        time.call(1, &second_call);
+        subtract(x_tilde, x, r);
 
-        let effort = first
-            .advance(&interface.displacement, limits.first, &mut interface.load)
-            .map_err(|error| explain(error, history))?;
-        seconds.fields[0] = FieldSeconds { total: lap(&mut clock), phases: effort.time };
-        let first_record = FieldRecord::new(first.name(), limits.first, effort);
-        check_finite(&interface.load, first.name(), first.output())?;
-        accelerator.correct_first_output(&interface.x, &mut interface.load);
-        seconds.acceleration += lap(&mut clock);
-
-        transfers.apply_transpose(&interface.load, &mut interface.transferred_load);
-        seconds.transfer += lap(&mut clock);
-
-        let effort = second
-            .advance(&interface.transferred_load, limits.second, &mut interface.x_tilde)
-            .map_err(|error| explain(error, history))?;
-        seconds.fields[1] = FieldSeconds { total: lap(&mut clock), phases: effort.time };
-        let second_record = FieldRecord::new(second.name(), limits.second, effort);
-        check_finite(&interface.x_tilde, second.name(), second.output())?;
-
-        subtract(&interface.x_tilde, &interface.x, &mut interface.r);
-        let residual = finite_norm(&interface.r, second)?;
-        history.iterations.push(IterationRecord {
-            step: history.step.index,
-            iteration,
-            residual,
-            relative_residual: if residual <= second.resolution() {
-                0.0
-            } else {
-                ratio(residual, norm(&interface.x_tilde))
-            },
-            work_defect: interface.work_defect(),
-            fields: [first_record, second_record],
-            acceleration: None,
-            seconds,
-        });
-        let (converged, at_bound) = (criterion.ends_step(history), iteration == *max_iterations);
+        let fields = [
+            FieldRecord::new(first.name(), limits.first, first_call),
+            FieldRecord::new(second.name(), limits.second, second_call),
+        ];
+        history.iterations.push(record(iteration, history.step.index, interface, fields, second)?);
+        let (converged, at_bound) =
+            (choices.criterion.ends_step(history), iteration == choices.max_iterations);
         let growth = if converged { None } else { divergence::diverged(history, at_bound) };
         let record = history.iterations.last_mut().expect("the record was just pushed");
         if !converged && !at_bound && growth.is_none() {
-            clock = Instant::now();
-            let answer = record.answer();
-            record.acceleration = Some(accelerator.propose(&mut interface.x, &interface.r, answer));
-            record.seconds.acceleration += lap(&mut clock);
+            time.restart();
+            record.acceleration = Some(propose(choices, interface, record.answer()));
+            time.lap(|seconds| &mut seconds.acceleration);
         }
-        record.seconds = record.seconds.to_the_microsecond();
+        record.seconds = time.seconds.to_the_microsecond();
         observer.iteration(record);
         if converged {
             return Ok(true);
@@ -155,16 +134,84 @@ pub fn solve_step(
         }
         check_finite(&interface.x, "acceleration", second.output())?;
     }
-    match at_limit {
+    match choices.at_limit {
         AtLimit::Fail => Err(too_many_iterations(history, norm(&interface.x_tilde), second.resolution())),
         AtLimit::Accept => Ok(false),
     }
 }
 
-/// Seconds since `clock`, which starts anew.
-fn lap(clock: &mut Instant) -> f64 {
-    let now = Instant::now();
-    now.duration_since(std::mem::replace(clock, now)).as_secs_f64()
+/// Lets a participant answer `input`, and checks the answer.
+fn call(
+    participant: &mut impl Participant,
+    limit: NewtonLimit,
+    input: &[f64],
+    output: &mut [f64],
+    history: &StepHistory,
+) -> Result<Effort, StepFailure> {
+    let effort = participant.advance(input, limit, output).map_err(|error| explain(error, history))?;
+    check_finite(output, participant.name(), participant.output())?;
+    Ok(effort)
+}
+
+/// The next iterate, from an accelerator that is named if no setting can name it.
+fn propose(choices: &mut Choices, interface: &mut Interface, answer: Answer) -> Proposal {
+    let accelerator = &mut choices.accelerator;
+    let proposal = accelerator.propose(&mut interface.x, &interface.r, answer);
+    if choices.is_custom {
+        Proposal { method: Some(accelerator.name().to_owned()), ..proposal }
+    } else {
+        proposal
+    }
+}
+
+/// The record of an iteration, without what follows on it: acceleration and times.
+fn record(
+    iteration: usize,
+    step: usize,
+    interface: &Interface,
+    fields: [FieldRecord; 2],
+    second: &impl Participant,
+) -> Result<IterationRecord, StepFailure> {
+    let residual = finite_norm(&interface.r, second)?;
+    let is_round_off = residual <= second.resolution();
+    Ok(IterationRecord {
+        step,
+        iteration,
+        residual,
+        relative_residual: if is_round_off { 0.0 } else { ratio(residual, norm(&interface.x_tilde)) },
+        work_defect: interface.work_defect(),
+        fields,
+        acceleration: None,
+        seconds: Seconds::default(),
+    })
+}
+
+/// Where the time of one iteration goes: each lap counts from the end of the one before.
+struct Stopwatch {
+    since: Instant,
+    seconds: Seconds,
+}
+
+impl Stopwatch {
+    fn start() -> Self {
+        Self { since: Instant::now(), seconds: Seconds::default() }
+    }
+
+    fn restart(&mut self) {
+        self.since = Instant::now();
+    }
+
+    /// Adds the lap to one of the sums.
+    fn lap(&mut self, sum: impl FnOnce(&mut Seconds) -> &mut f64) {
+        let now = Instant::now();
+        *sum(&mut self.seconds) += now.duration_since(std::mem::replace(&mut self.since, now)).as_secs_f64();
+    }
+
+    /// The lap was a call of the first (0) or of the second (1) field.
+    fn call(&mut self, field: usize, effort: &Effort) {
+        self.lap(|seconds| &mut seconds.fields[field].total);
+        self.seconds.fields[field].phases = effort.time;
+    }
 }
 
 /// A field that gives up while the residual grows was given what no field can bear.

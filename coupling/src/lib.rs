@@ -10,7 +10,7 @@
 //! * [`predict`]: where a step starts.
 //! * [`dirichlet_neumann`]: one time step, the one loop of this crate. [`divergence`]: when it has gone astray.
 //!   [`march`]: step after step.
-//! * [`record`] and [`observe`]: what a run leaves behind.
+//! * [`record`] and [`observe`]: what a run leaves behind. [`state`]: what it must remember.
 //! * [`conformance`]: checks for everybody who implements a trait of this crate.
 //! * [`models`]: an elastic tube and a linear tank, small enough to debug a method in milliseconds.
 //!
@@ -19,19 +19,10 @@
 //!
 //! ```
 //! use partita_coupling::models::tube::Tube;
-//! use partita_coupling::{
-//!     Acceleration, AtLimit, CouplingSettings, Criterion, IdentityTransfer, March, NewtonLimit, Policy,
-//!     Predictor, QuasiNewton,
-//! };
+//! use partita_coupling::{Acceleration, CouplingSettings, IdentityTransfer, March};
 //!
-//! let settings = CouplingSettings {
-//!     acceleration: Acceleration::IqnImvls(QuasiNewton::default()),
-//!     policy: Policy::Fixed { first: NewtonLimit::AtMost(1), second: NewtonLimit::AtMost(1) },
-//!     criterion: Criterion::Changes { tolerance: 1e-5 },
-//!     predictor: Predictor::Linear,
-//!     max_iterations: 100,
-//!     at_limit: AtLimit::Fail,
-//! };
+//! let acceleration = Acceleration::Aitken { omega_0: 0.05 };
+//! let settings = CouplingSettings { acceleration, ..CouplingSettings::default() };
 //! let tube = Tube::default();
 //! let (flow, wall) = tube.participants()?;
 //! let transfer = IdentityTransfer::new(tube.cells);
@@ -61,12 +52,11 @@ pub mod predict;
 pub mod record;
 pub mod retry;
 pub mod setup;
+pub mod state;
 pub mod transfer;
 mod vector;
 
-pub use accelerate::{
-    Acceleration, Accelerator, AcceleratorState, Answer, DroppedColumn, Filter, Proposal, QuasiNewton,
-};
+pub use accelerate::{Acceleration, Accelerator, Answer, DroppedColumn, Filter, Proposal, QuasiNewton};
 pub use choices::{AtLimit, Choices, CouplingSettings};
 pub use clock::Clock;
 pub use criterion::{Bound, Criterion};
@@ -77,10 +67,11 @@ pub use observe::Observer;
 pub use participant::{
     Change, Effort, NewtonLimit, Participant, ParticipantError, PhaseTimes, Step, WorkDetails,
 };
-pub use policy::{Limits, NewtonPolicy, Policy};
+pub use policy::{Limits, Policy};
 pub use port::{Block, Quantity};
 pub use predict::Predictor;
 pub use record::{FieldRecord, IterationRecord, Record, RetryRecord, StepHistory, StepRecord};
 pub use retry::StepSizes;
 pub use setup::SetupError;
+pub use state::Saved;
 pub use transfer::{IdentityTransfer, MatrixTransfer, Transfer};

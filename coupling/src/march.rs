@@ -2,30 +2,30 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::accelerate::{AcceleratorState, DroppedColumn};
+use crate::accelerate::{Accelerator, DroppedColumn};
 use crate::choices::{Choices, CouplingSettings};
 use crate::clock::Clock;
 use crate::dirichlet_neumann::{Interface, solve_step};
 use crate::error::{StepError, StepFailure};
 use crate::observe::Observer;
 use crate::participant::{Participant, Step};
-use crate::policy::PolicyState;
 use crate::predict::{Past, Predictor};
 use crate::record::{StepHistory, StepRecord};
 use crate::setup::SetupError;
+use crate::state::Saved;
 use crate::transfer::{Transfer, Transfers};
 
-/// All coupling state between two steps; the participants' own states are not part of it.
+/// Everything that a coupled run remembers between two steps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MarchState {
     /// The clock.
     pub clock: Clock,
     /// Accepted interface displacements.
     pub past: Past,
-    /// The accelerator's state.
-    pub accelerator: AcceleratorState,
-    /// The policy's state.
-    pub policy: PolicyState,
+    /// What the accelerator saves.
+    pub accelerator: Saved,
+    /// What the first and the second participant save.
+    pub participants: [Saved; 2],
 }
 
 /// A coupled run: two participants, their transfers and the choices.
@@ -72,6 +72,9 @@ impl<A: Participant, B: Participant> March<A, B> {
         choices: Choices,
         time: f64,
     ) -> Result<Self, SetupError> {
+        if first.name() == second.name() {
+            return Err(SetupError::SameName { name: first.name().to_owned() });
+        }
         let transfers = Transfers::between(&first, &second, transfers)?;
         let interface = Interface::new(&first, &second);
         let past = Past::new(time, interface.x.clone());
@@ -193,28 +196,37 @@ impl<A: Participant, B: Participant> March<A, B> {
         self.choices.accelerator.step_failed();
     }
 
-    /// All coupling state, to be saved beside the participants' own.
+    /// All state between two steps.
     #[must_use]
     pub fn state(&self) -> MarchState {
+        let accelerator = &self.choices.accelerator;
         MarchState {
             clock: self.clock,
             past: self.past.clone(),
-            accelerator: self.choices.accelerator.state(),
-            policy: self.choices.policy.state(),
+            accelerator: Saved::new(accelerator.name(), accelerator.save()),
+            participants: [
+                Saved::new(self.first.name(), self.first.save()),
+                Saved::new(self.second.name(), self.second.save()),
+            ],
         }
     }
 
     /// Continues from a saved state, bit for bit.
     ///
     /// # Errors
-    /// When the state belongs to other choices or another interface.
+    /// If the state belongs to other choices, other participants or another interface. The run is of no use then.
     pub fn restore(&mut self, state: &MarchState) -> Result<(), SetupError> {
         let (saved, here) = (state.past.newest().displacement.len(), self.interface.x.len());
         if saved != here {
             return Err(SetupError::state("interface", format!("{saved} unknowns, not {here}")));
         }
-        self.choices.accelerator.restore(&state.accelerator)?;
-        self.choices.policy.restore(&state.policy)?;
+        let accelerator = &mut self.choices.accelerator;
+        let learned = state.accelerator.bytes_of(accelerator.name())?;
+        let [first, second] = &state.participants;
+        let [first, second] = [first.bytes_of(self.first.name())?, second.bytes_of(self.second.name())?];
+        accelerator.restore(learned)?;
+        self.first.restore(first)?;
+        self.second.restore(second)?;
         self.past.clone_from(&state.past);
         self.clock = state.clock;
         self.work = 0.0;
@@ -233,7 +245,40 @@ impl<A: Participant, B: Participant> March<A, B> {
         &self.second
     }
 
-    /// Both participants, to restore their states or to change them between steps.
+    /// Exchanges the accelerator for one of the caller's own, which records name.
+    ///
+    /// # Panics
+    /// If steps were made already.
+    pub fn set_accelerator(&mut self, accelerator: Box<dyn Accelerator>) {
+        assert_eq!(self.clock.steps, 0, "the run has started already");
+        (self.choices.accelerator, self.choices.is_custom) = (accelerator, true);
+    }
+
+    /// The accelerator.
+    #[must_use]
+    pub fn accelerator(&self) -> &dyn Accelerator {
+        self.choices.accelerator.as_ref()
+    }
+
+    /// Exchanges all choices.
+    ///
+    /// # Panics
+    /// If steps were made already.
+    pub fn set_choices(&mut self, choices: Choices) {
+        assert_eq!(self.clock.steps, 0, "the run has started already");
+        self.choices = choices;
+    }
+
+    /// Exchanges the transfers.
+    ///
+    /// # Errors
+    /// If they do not fit the blocks.
+    pub fn set_transfers(&mut self, transfers: Vec<Box<dyn Transfer>>) -> Result<(), SetupError> {
+        self.transfers = Transfers::between(&self.first, &self.second, transfers)?;
+        Ok(())
+    }
+
+    /// Both participants, to change them between steps.
     pub fn participants_mut(&mut self) -> (&mut A, &mut B) {
         (&mut self.first, &mut self.second)
     }

@@ -6,6 +6,7 @@ use std::ops::{AddAssign, Sub};
 use serde::{Deserialize, Serialize};
 
 use crate::port::Block;
+use crate::setup::SetupError;
 
 mod error;
 
@@ -202,6 +203,20 @@ pub trait Participant {
 
     /// Gives the step up: back to the committed state.
     fn rewind(&mut self);
+
+    /// The committed state and whatever else the next step depends on, in bytes that nobody else reads:
+    /// [`state::encode`](crate::state::encode) makes them of plain data. Nothing unless the participant says otherwise.
+    fn save(&self) -> Vec<u8> {
+        Vec::new()
+    }
+
+    /// Continues from the bytes of [`save`](Self::save), bit for bit. A participant that saves nothing accepts nothing else.
+    ///
+    /// # Errors
+    /// If the bytes belong to another participant or to another discretization.
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
+        crate::state::expect_none(self.name(), bytes)
+    }
 }
 
 impl<P: Participant + ?Sized> Participant for Box<P> {
@@ -233,5 +248,11 @@ impl<P: Participant + ?Sized> Participant for Box<P> {
     }
     fn rewind(&mut self) {
         (**self).rewind();
+    }
+    fn save(&self) -> Vec<u8> {
+        (**self).save()
+    }
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
+        (**self).restore(bytes)
     }
 }

@@ -24,36 +24,6 @@ impl Limits {
     }
 }
 
-/// Decides the limits of the next calls.
-pub trait NewtonPolicy: Send {
-    /// The limits of the iteration that follows the last one of `history`.
-    fn limits(&mut self, history: &StepHistory) -> Limits;
-
-    /// What the policy remembers from finished steps.
-    fn state(&self) -> PolicyState {
-        PolicyState::Stateless
-    }
-
-    /// Continues from a saved state.
-    ///
-    /// # Errors
-    /// When the state belongs to another policy.
-    fn restore(&mut self, state: &PolicyState) -> Result<(), SetupError> {
-        match state {
-            PolicyState::Stateless => Ok(()),
-        }
-    }
-}
-
-/// What a policy remembers between steps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum PolicyState {
-    /// Nothing: the limits follow from the step's own history.
-    #[default]
-    Stateless,
-}
-
 /// The policies a scene can name.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -99,6 +69,21 @@ impl Policy {
             Self::ConvergedInterfaceData { tolerance } => check_tolerance(*tolerance),
         }
     }
+
+    /// The limits of the iteration that follows the last one of `history`. They follow from the step's own history alone.
+    #[must_use]
+    pub fn limits(&self, history: &StepHistory) -> Limits {
+        match *self {
+            Self::Fixed { first, second } => Limits { first, second },
+            Self::UntilCoupled { at_most, tolerance } => {
+                let coupled = Criterion::Changes { tolerance }.holds(history);
+                Limits::both(if coupled { NewtonLimit::ToConvergence } else { NewtonLimit::AtMost(at_most) })
+            }
+            Self::ConvergedInterfaceData { tolerance } => {
+                Limits::both(NewtonLimit::UntilOutputSettles { tolerance })
+            }
+        }
+    }
 }
 
 fn check_count(count: usize) -> Result<(), SetupError> {
@@ -115,21 +100,6 @@ fn check_tolerance(tolerance: f64) -> Result<(), SetupError> {
     Err(SetupError::setting("Newton policy tolerance", tolerance, "take a positive number"))
 }
 
-impl NewtonPolicy for Policy {
-    fn limits(&mut self, history: &StepHistory) -> Limits {
-        match *self {
-            Self::Fixed { first, second } => Limits { first, second },
-            Self::UntilCoupled { at_most, tolerance } => {
-                let coupled = Criterion::Changes { tolerance }.holds(history);
-                Limits::both(if coupled { NewtonLimit::ToConvergence } else { NewtonLimit::AtMost(at_most) })
-            }
-            Self::ConvergedInterfaceData { tolerance } => {
-                Limits::both(NewtonLimit::UntilOutputSettles { tolerance })
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -143,7 +113,7 @@ mod tests {
     #[test]
     fn fixed_limits_never_change() {
         let (first, second) = (NewtonLimit::AtMost(2), NewtonLimit::ToConvergence);
-        let mut policy = Policy::Fixed { first, second };
+        let policy = Policy::Fixed { first, second };
         for history in [empty(), history([0.0, 0.0], true, true), history([1.0, 1.0], false, false)] {
             assert_eq!(policy.limits(&history), Limits { first, second });
         }
@@ -151,7 +121,7 @@ mod tests {
 
     #[test]
     fn until_coupled_opens_the_limit_when_all_changes_are_small_and_closes_it_again() {
-        let mut policy = Policy::UntilCoupled { at_most: 3, tolerance: 1e-5 };
+        let policy = Policy::UntilCoupled { at_most: 3, tolerance: 1e-5 };
         let (closed, open) = (Limits::both(NewtonLimit::AtMost(3)), Limits::both(NewtonLimit::ToConvergence));
         assert_eq!(policy.limits(&empty()), closed);
         // Whether the fields meet their own bounds does not matter: that is what the open limit is for.
@@ -163,7 +133,7 @@ mod tests {
 
     #[test]
     fn converged_interface_data_watches_the_output() {
-        let mut policy = Policy::ConvergedInterfaceData { tolerance: 1e-4 };
+        let policy = Policy::ConvergedInterfaceData { tolerance: 1e-4 };
         let expected = Limits::both(NewtonLimit::UntilOutputSettles { tolerance: 1e-4 });
         assert_eq!(policy.limits(&empty()), expected);
         assert_eq!(policy.limits(&history([0.0, 0.0], true, true)), expected);

@@ -8,24 +8,8 @@ use serde::{Deserialize, Serialize};
 pub enum Quantity {
     /// Displacement from the reference position \[m\].
     Displacement,
-    /// Velocity \[m/s\].
-    Velocity,
-    /// Force per area at the points \[Pa\].
-    Traction,
     /// Nodal forces, work-conjugate to displacements \[N, or N/m in two dimensions\].
     Force,
-}
-
-impl Quantity {
-    /// The quantity whose product with this one is a virtual work, if nodal values have one.
-    #[must_use]
-    pub fn conjugate(self) -> Option<Self> {
-        match self {
-            Self::Displacement => Some(Self::Force),
-            Self::Force => Some(Self::Displacement),
-            Self::Velocity | Self::Traction => None,
-        }
-    }
 }
 
 /// One stretch of an interface vector: `components` values at each of `points` points of one interface.

@@ -27,6 +27,14 @@ pub enum SetupError {
         /// Transfers given.
         transfers: usize,
     },
+    /// Both participants have one name, by which records could not tell them apart.
+    #[error(
+        "both participants are called `{name}`\nhint: records list the fields by name: give one of them another"
+    )]
+    SameName {
+        /// The name.
+        name: String,
+    },
     /// Two blocks that meet do not agree.
     #[error("interface {interface}: {problem}")]
     BlockMismatch {
@@ -55,11 +63,11 @@ pub enum SetupError {
     },
     /// A saved state belongs to other choices or to another interface.
     #[error(
-        "the saved state of the {what} does not fit: {problem}\nhint: resume with the choices the state was saved with"
+        "the saved state of `{what}` does not fit: {problem}\nhint: resume with the choices the state was saved with"
     )]
     State {
         /// Whose state it is.
-        what: &'static str,
+        what: String,
         /// What disagrees.
         problem: String,
     },
@@ -70,7 +78,9 @@ impl SetupError {
         Self::Setting { setting, value: value.to_string(), hint }
     }
 
-    pub(crate) fn state(what: &'static str, problem: impl Into<String>) -> Self {
-        Self::State { what, problem: problem.into() }
+    /// A saved state of `what` that does not fit, and why.
+    #[must_use]
+    pub fn state(what: &str, problem: impl Into<String>) -> Self {
+        Self::State { what: what.to_owned(), problem: problem.into() }
     }
 }

@@ -25,6 +25,21 @@ pub struct FluidModel<const D: usize> {
     pub initial: InitialState<D>,
 }
 
+impl<const D: usize> FluidModel<D> {
+    /// A fluid at rest under no force, of a density `[kg/m^3]` and a viscosity `[Pa s]`, with a condition for each boundary
+    /// group.
+    #[must_use]
+    pub fn new<'a>(
+        density: f64,
+        viscosity: f64,
+        boundary: impl IntoIterator<Item = (&'a str, BoundaryCondition<D>)>,
+    ) -> Self {
+        let boundary = boundary.into_iter().map(|(group, condition)| (group.to_owned(), condition)).collect();
+        let body_force = BodyForce::Constant([0.0; D]);
+        Self { density, viscosity, body_force, boundary, initial: InitialState::Rest }
+    }
+}
+
 /// A force per mass `[m/s^2]`.
 #[derive(Clone)]
 pub enum BodyForce<const D: usize> {

@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/elastic-bottom");
     let overrides: Vec<String> = std::env::args().skip(1).collect();
     let tank = scene::load(&folder, &overrides)?;
-    let mut run = build::run(&tank)?;
+    let mut run = build::march(&tank)?;
     for _ in 0..5 {
         run.step(tank.scene.time.step.get(), &mut Lines)?;
         if let Some(structure) = run.second().field() {

@@ -5,14 +5,15 @@
 //! what it cost. It holds no numerics of its own.
 
 mod backflow;
-mod slot;
+mod side;
 mod suspect;
 
 use std::error::Error;
 
 use partita_coupling::port::total_len;
 use partita_coupling::{
-    Block, Change, Effort, NewtonLimit, Participant, ParticipantError, PhaseTimes, Step, WorkDetails,
+    Block, Change, Effort, NewtonLimit, Participant, ParticipantError, PhaseTimes, SetupError, Step,
+    WorkDetails, state,
 };
 use partita_numerics::field::{Field, FieldWork, Part, StateMismatch};
 use partita_numerics::newton::{self, Bound, Failure, Limit, Report, ResidualNorm, ReusableTangent, Verdict};
@@ -21,7 +22,7 @@ use partita_numerics::phases::PhaseSeconds;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use backflow::suspect as backflow;
-pub use slot::{Misfit, Slot, SlotState};
+pub use side::Side;
 pub use suspect::Suspect;
 
 /// A field as a participant of the coupling.
@@ -40,14 +41,14 @@ pub struct Adapter<F> {
 }
 
 /// What an adapter and its field remember between steps.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct AdapterState<S> {
+#[derive(Serialize, Deserialize)]
+struct AdapterState<S> {
     /// The field's own state.
-    pub field: S,
+    field: S,
     /// The interface output of the last call.
-    pub last_output: Vec<f64>,
+    last_output: Vec<f64>,
     /// The tangent whose factor the next step may use.
-    pub tangent: Option<ReusableTangent>,
+    tangent: Option<ReusableTangent>,
 }
 
 impl<F: Field> Adapter<F> {
@@ -72,31 +73,10 @@ impl<F: Field> Adapter<F> {
         &self.field
     }
 
-    /// What must be saved to continue.
-    #[must_use]
-    pub fn state(&self) -> AdapterState<F::State> {
-        AdapterState {
-            field: self.field.state().clone(),
-            last_output: self.last_output.clone(),
-            tangent: self.field.reusable_tangent(),
-        }
-    }
-
-    /// Continues from a saved state, bit for bit.
-    ///
-    /// # Errors
-    /// When the state belongs to another discretization.
-    pub fn restore(&mut self, state: &AdapterState<F::State>) -> Result<(), F::Error>
-    where
-        F::Error: From<StateMismatch>,
-    {
-        self.field.restore(&state.field)?;
-        if let Some(tangent) = &state.tangent {
-            self.field.restore_tangent(tangent)?;
-        }
-        self.last_output.copy_from_slice(&state.last_output);
-        self.told = self.field.work();
-        Ok(())
+    /// Makes the interface vectors of other blocks.
+    pub(crate) fn set_blocks(&mut self, input: Vec<Block>, output: Vec<Block>) {
+        self.last_output = vec![0.0; total_len(&output)];
+        (self.input, self.output) = (input, output);
     }
 
     fn changes(&self) -> Vec<Change> {
@@ -111,7 +91,7 @@ impl<F: Field> Adapter<F> {
 impl<F> Participant for Adapter<F>
 where
     F: Field,
-    F::Error: Error + Send + Sync + 'static,
+    F::Error: Error + From<StateMismatch> + Send + Sync + 'static,
 {
     fn name(&self) -> &str {
         F::NAME
@@ -179,6 +159,30 @@ where
     fn rewind(&mut self) {
         self.field.rewind();
         self.entry.copy_from_slice(self.field.values());
+    }
+
+    fn save(&self) -> Vec<u8> {
+        state::encode(&AdapterState {
+            field: self.field.state().clone(),
+            last_output: self.last_output.clone(),
+            tangent: self.field.reusable_tangent(),
+        })
+    }
+
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
+        let saved: AdapterState<F::State> = state::decode(F::NAME, bytes)?;
+        let (there, here) = (saved.last_output.len(), self.last_output.len());
+        if there != here {
+            return Err(SetupError::state(F::NAME, format!("{there} values at the interface, not {here}")));
+        }
+        let misfit = |error: F::Error| SetupError::state(F::NAME, error.to_string());
+        self.field.restore(&saved.field).map_err(misfit)?;
+        if let Some(tangent) = &saved.tangent {
+            self.field.restore_tangent(tangent).map_err(misfit)?;
+        }
+        self.last_output = saved.last_output;
+        self.told = self.field.work();
+        Ok(())
     }
 }
 

@@ -1,25 +1,20 @@
-//! From a validated scene to a run that can be stepped.
+//! From a validated scene to coupled fields that can be stepped.
 
 pub(crate) mod interface;
 
-use partita_coupling::{Block, March, Quantity, SetupError, Transfer};
+use partita_coupling::SetupError;
 use partita_fluid::{FluidError, FluidSolver};
 use partita_structure::{MaterialError, Space, StructureError, StructureSolver};
 use thiserror::Error;
 
 pub(crate) use interface::transfer;
 
-use crate::adapt::{self, Adapter, Slot};
+pub use crate::couple::FieldMarch;
+
+use crate::adapt::Side;
+use crate::couple;
 use partita_mesh::Mesh;
 use partita_scene::{Resolved, models, schema};
-
-/// A run of a scene: fluid first, structure second, either of them possibly absent.
-pub type Run = March<Slot<FluidSolver<2>>, Slot<StructureSolver<2>>>;
-
-/// Interface values per point.
-const COMPONENTS: usize = 2;
-/// Name of the interface in messages.
-const INTERFACE: &str = "interface";
 
 /// A scene that reads well but cannot be built.
 #[derive(Debug, Error)]
@@ -36,47 +31,63 @@ pub enum BuildError {
     /// The coupling.
     #[error(transparent)]
     Coupling(#[from] SetupError),
+    /// A field that is to be coupled has no interface.
+    #[error("{field}: it has no interface\nhint: {remedy}")]
+    NoInterface {
+        /// The field.
+        field: &'static str,
+        /// How it gets one.
+        remedy: &'static str,
+    },
+    /// There is no obvious way from the points of one participant to those of the other.
+    #[error(
+        "the interface of {first} has {first_values} values, that of {second} {second_values}\nhint: give the operator between them to `Run::couple_by`"
+    )]
+    Unmatched {
+        /// Name of the first participant.
+        first: String,
+        /// Values at its interface.
+        first_values: usize,
+        /// Name of the second participant.
+        second: String,
+        /// Values at its interface.
+        second_values: usize,
+    },
 }
 
-/// The run of a scene, at its initial state.
+/// The coupled fields of a scene, at their initial state.
 ///
 /// # Errors
 /// When the parts of the scene do not fit together.
-pub fn run(resolved: &Resolved) -> Result<Run, BuildError> {
-    run_on(resolved, 1)
+pub fn march(resolved: &Resolved) -> Result<FieldMarch, BuildError> {
+    march_on(resolved, 1)
 }
 
-/// The run of a scene with its large linear systems solved by this many threads, which changes no number.
+/// The coupled fields of a scene with their large linear systems solved by this many threads, which changes no number.
 ///
 /// # Errors
 /// When the parts of the scene do not fit together.
-pub fn run_on(Resolved { scene, shapes, .. }: &Resolved, threads: usize) -> Result<Run, BuildError> {
+pub fn march_on(Resolved { scene, shapes, .. }: &Resolved, threads: usize) -> Result<FieldMarch, BuildError> {
     let fluid = scene.fluid.as_ref().zip(shapes.fluid.clone());
     let moves = scene.moves_the_interface();
     let fluid = fluid.map(|(scene, mesh)| fluid_solver(scene, mesh, moves, threads)).transpose()?;
     let structure = scene.structure.as_ref().zip(shapes.structure.clone());
     let structure = structure.map(|(scene, space)| structure_solver(scene, space)).transpose()?;
-    let (settings, transfers) = match (&scene.coupling, &fluid, &structure) {
-        (Some(coupling), Some(fluid), Some(structure)) => {
-            (models::coupling_settings(coupling), vec![transfer(fluid, structure, coupling)?])
+    match (fluid, structure, &scene.coupling) {
+        (Some(fluid), Some(structure), Some(coupling)) => {
+            let tolerance = coupling.projection_tolerance.get();
+            let transfer = transfer(&fluid, &structure, coupling.transfer, tolerance)?;
+            let settings = models::coupling_settings(coupling);
+            if moves {
+                couple::two_way(fluid.into(), structure.into(), transfer, &settings)
+            } else {
+                couple::one_way(fluid.into(), structure.into(), transfer)
+            }
         }
-        _ => (models::one_call(), Vec::<Box<dyn Transfer>>::new()),
-    };
-    let coupled = !transfers.is_empty();
-    let blocks = |quantity, points| {
-        if coupled { vec![Block::new(INTERFACE, quantity, COMPONENTS, points)] } else { Vec::new() }
-    };
-    let displacements = |points| if moves { blocks(Quantity::Displacement, points) } else { Vec::new() };
-    let first = fluid.map(|fluid| {
-        let points = fluid.interface_nodes().len();
-        Adapter::new(fluid, displacements(points), blocks(Quantity::Force, points))
-            .with_suspect(adapt::backflow)
-    });
-    let second = structure.map(|structure| {
-        let points = structure.interface_points().len();
-        Adapter::new(structure, blocks(Quantity::Force, points), displacements(points))
-    });
-    Ok(March::new(Slot::new(first), Slot::new(second), transfers, &settings, 0.0)?)
+        (fluid, structure, _) => {
+            couple::alone(fluid.map_or(Side::Absent, Side::from), structure.map_or(Side::Absent, Side::from))
+        }
+    }
 }
 
 /// The solver of a scene's fluid on `mesh`, at its initial state; `moves` tells whether its interface does, and `threads` how

@@ -14,7 +14,7 @@ use partita_mesh::{Mesh, Place, quality, simplex};
 use partita_structure::{Space, StructureSolver};
 
 use crate::build::interface::{chosen, coarsest};
-use crate::build::{BuildError, Run};
+use crate::build::{BuildError, FieldMarch};
 use crate::memory;
 use inflow::Inflow;
 use partita_scene::schema::{
@@ -26,7 +26,7 @@ use partita_scene::{Content, Resolved, Role, words};
 ///
 /// # Errors
 /// What the run would stop at, with its time.
-pub fn look_ahead(resolved: &Resolved, run: &Run) -> Result<(), BuildError> {
+pub fn look_ahead(resolved: &Resolved, run: &FieldMarch) -> Result<(), BuildError> {
     match run.first().field() {
         Some(fluid) => Ok(balance::check(fluid, &resolved.scene.time)?),
         None => Ok(()),
@@ -36,7 +36,7 @@ pub fn look_ahead(resolved: &Resolved, run: &Run) -> Result<(), BuildError> {
 /// Describes a scene and the run that was built from it: title, meshes with their boundary groups, splines, interface,
 /// choices. The last line is `scene is sound`.
 #[must_use]
-pub fn describe(resolved: &Resolved, run: &Run) -> String {
+pub fn describe(resolved: &Resolved, run: &FieldMarch) -> String {
     let scene = &resolved.scene;
     let (fluid, structure) = (run.first().field(), run.second().field());
     let mut page = Page { text: format!("{}\n", scene.title) };

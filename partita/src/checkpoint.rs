@@ -34,7 +34,7 @@ const TEMPORARY: &str = "checkpoint.tmp.bin";
 pub(crate) const FILES: [&str; 3] = [LATEST, PREVIOUS, TEMPORARY];
 const MAGIC: [u8; 8] = *b"PARTITA\n";
 /// Rises with every change of the layout or of a state that a checkpoint holds.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const PREFIX: usize = 28;
 
 /// When a checkpoint was taken, and what the run had cost by then.
@@ -131,23 +131,43 @@ pub enum CheckpointError {
 /// # Errors
 /// When the state cannot be encoded or the system refuses. The checkpoints that were there stay usable.
 pub fn save<T: Serialize>(dir: &Path, stamp: &Stamp, state: &T) -> Result<(), CheckpointError> {
-    let bytes = encode(stamp, state).map_err(|source| CheckpointError::Encode { source })?;
     let (temporary, latest, previous) = (dir.join(TEMPORARY), dir.join(LATEST), dir.join(PREVIOUS));
-    let fail = |path: &Path| {
-        let path = path.to_owned();
-        move |source| CheckpointError::File { path, source }
-    };
-    write_through(&temporary, &bytes).map_err(|source| {
-        // Half a checkpoint only takes space.
-        let _ = fs::remove_file(&temporary);
-        fail(&temporary)(source)
-    })?;
+    write_file(&temporary, stamp, state)?;
     match fs::rename(&latest, &previous) {
         Err(error) if error.kind() != ErrorKind::NotFound => return Err(fail(&previous)(error)),
         _ => {}
     }
     fs::rename(&temporary, &latest).map_err(fail(&latest))?;
     synchronize_folder(dir).map_err(fail(dir))
+}
+
+/// Writes a checkpoint into one file, whole or not at all.
+///
+/// # Errors
+/// When the state cannot be encoded or the system refuses. What was in the file stays then.
+pub fn save_file<T: Serialize>(path: &Path, stamp: &Stamp, state: &T) -> Result<(), CheckpointError> {
+    let mut temporary = path.as_os_str().to_owned();
+    temporary.push(".part");
+    let temporary = PathBuf::from(temporary);
+    write_file(&temporary, stamp, state)?;
+    fs::rename(&temporary, path).map_err(fail(path))?;
+    synchronize_folder(path.parent().filter(|dir| !dir.as_os_str().is_empty()).unwrap_or(Path::new(".")))
+        .map_err(fail(path))
+}
+
+fn write_file<T: Serialize>(path: &Path, stamp: &Stamp, state: &T) -> Result<(), CheckpointError> {
+    let bytes = encode(stamp, state).map_err(|source| CheckpointError::Encode { source })?;
+    write_through(path, &bytes).map_err(|source| {
+        // Half a checkpoint only takes space.
+        let _ = fs::remove_file(path);
+        fail(path)(source)
+    })
+}
+
+/// What the system says about a file.
+fn fail(path: &Path) -> impl FnOnce(io::Error) -> CheckpointError + use<> {
+    let path = path.to_owned();
+    move |source| CheckpointError::File { path, source }
 }
 
 /// Bytes of a checkpoint of `state`.

@@ -7,7 +7,7 @@ use partita_mesh::vtu::Array;
 use partita_mesh::{Cells, SolidMesh};
 use partita_structure::{Space, StructureSolver};
 
-use crate::build::Run;
+use crate::build::FieldMarch;
 use crate::output::fields::{Series, Snapshot, Tessellation};
 use crate::output::space::Estimate;
 use crate::output::{OutputError, RunWriter};
@@ -21,7 +21,7 @@ pub(crate) struct Drawing {
 impl Drawing {
     /// A drawing of `run` with each spline element cut into `subdivisions` parts along each side.
     #[must_use]
-    pub(crate) fn new(run: &Run, subdivisions: usize) -> Self {
+    pub(crate) fn new(run: &FieldMarch, subdivisions: usize) -> Self {
         let patch = run.second().field().and_then(|structure| match structure.space() {
             Space::Patch(patch) => Some(patch.spline()),
             Space::Lagrange(_) => None,
@@ -35,7 +35,7 @@ impl Drawing {
 
     /// Adds `files` drawings of `run` to what it will write.
     #[must_use]
-    pub(crate) fn add_to(&self, mut estimate: Estimate, run: &Run, files: usize) -> Estimate {
+    pub(crate) fn add_to(&self, mut estimate: Estimate, run: &FieldMarch, files: usize) -> Estimate {
         if let Some(fluid) = run.first().field() {
             // Velocity and pressure; where the mesh moves, points, displacement and mesh velocity too.
             let numbers = if fluid.mesh_quality().is_some() { 9 } else { 3 };
@@ -59,7 +59,7 @@ impl Drawing {
     /// What the system refuses.
     pub(crate) fn write(
         &self,
-        run: &Run,
+        run: &FieldMarch,
         writer: &mut RunWriter,
         step: usize,
         time: f64,

@@ -1,167 +1,70 @@
-//! Values that a scene wants to see at every step.
+//! Values that are read off a run after each step.
 
 mod exact;
 mod line;
-use partita_numerics::Field;
+mod scene;
 
-use std::collections::BTreeMap;
+use partita_coupling::{SetupError, state};
 
-use partita_fluid::FluidSolver;
-use partita_structure::StructureSolver;
+pub(crate) use scene::named;
+pub use scene::{Probes, columns};
 
-use crate::build::Run;
-use line::Samples;
-use partita_scene::models::{self, nearest_node};
-use partita_scene::schema::{self, Parameter, Real};
+use crate::run::Run;
 
-/// The probes of a scene, in the order of their columns.
-#[derive(Debug)]
-pub struct Probes {
-    places: Vec<Place>,
-    columns: Vec<String>,
-}
+/// Looks at a run at the end of each step and returns numbers.
+///
+/// A probe may remember what it saw: a largest value, an integral. Then [`save`](Self::save) and
+/// [`restore`](Self::restore) keep that across a restart. A closure `FnMut(&Run) -> f64` is a probe of one value without
+/// memory.
+pub trait Probe: Send {
+    /// What its columns are called, beside the probe's own name.
+    fn columns(&self) -> Vec<String>;
 
-/// Where a probe looks.
-#[derive(Debug)]
-enum Place {
-    Structure(StructurePlace),
-    Fluid(FluidPlace),
-}
-
-#[derive(Debug)]
-enum StructurePlace {
-    Displacement([f64; 2]),
-    Energy,
-}
-
-#[derive(Debug)]
-enum FluidPlace {
-    Force(Vec<String>),
-    Node(usize),
-    Line(Samples),
-    Error(schema::Known),
-    FlowRate(Vec<String>),
-    Energy,
-    VolumeDefect,
-    MeshQuality,
-    InterfaceWork,
-}
-
-impl Probes {
-    /// The probes of `scene` on `run`, which was built from it.
-    #[must_use]
-    pub fn new(probes: &BTreeMap<String, schema::Probe>, run: &Run) -> Self {
-        let places = probes.values().map(|probe| place(probe, run)).collect();
-        Self { places, columns: columns(probes) }
-    }
-
-    /// Names of the columns.
-    #[must_use]
-    pub fn columns(&self) -> &[String] {
-        &self.columns
-    }
-
-    /// The values now, one a column.
+    /// The values at the end of the step that was just accepted, one per column.
     ///
-    /// # Panics
-    /// When `run` is not the one that the probes were made for.
-    #[must_use]
-    pub fn values(&self, run: &Run) -> Vec<f64> {
-        const CHECKED: &str = "the scene's probes were checked against its fields";
-        let values = |place: &Place| match place {
-            Place::Structure(place) => place.values(run.second().field().expect(CHECKED)),
-            Place::Fluid(place) => place.values(run.first().field().expect(CHECKED), run.clock().time),
-        };
-        self.places.iter().flat_map(values).collect()
+    /// It is called once per accepted step. The values of the run's other probes are not at hand meanwhile.
+    fn values(&mut self, run: &Run) -> Vec<f64>;
+
+    /// What the probe remembers, in bytes that nobody else reads. Nothing unless it says otherwise.
+    fn save(&self) -> Vec<u8> {
+        Vec::new()
+    }
+
+    /// Continues from the bytes of [`save`](Self::save), bit for bit.
+    ///
+    /// # Errors
+    /// If the bytes belong to another probe.
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
+        state::expect_none("probe", bytes)
     }
 }
 
-/// Names of the columns of `probes`.
-#[must_use]
-pub fn columns(probes: &BTreeMap<String, schema::Probe>) -> Vec<String> {
-    let of_probe = |(name, probe)| quantities(probe).iter().map(move |quantity| format!("{name}_{quantity}"));
-    probes.iter().flat_map(of_probe).collect()
-}
+/// The closure's value, in a column called `value`.
+impl<F: FnMut(&Run) -> f64 + Send> Probe for F {
+    fn columns(&self) -> Vec<String> {
+        vec!["value".to_owned()]
+    }
 
-/// What the columns of a probe are called.
-fn quantities(probe: &schema::Probe) -> &'static [&'static str] {
-    use schema::Probe;
-    match probe {
-        Probe::StructureDisplacement(_) | Probe::StructurePoint(_) => &["displacement_x", "displacement_y"],
-        Probe::StructureEnergy => &["kinetic_energy", "strain_energy"],
-        Probe::FluidForce(_) => &["force_x", "force_y"],
-        Probe::FluidValue(_) => &["velocity_x", "velocity_y", "pressure"],
-        Probe::FluidExtremes(_) => {
-            &["smallest_velocity_x", "largest_velocity_x", "smallest_velocity_y", "largest_velocity_y"]
-        }
-        Probe::FluidError(_) => &["velocity_error", "pressure_error"],
-        Probe::FluidFlowRate(_) => &["flow_rate"],
-        Probe::FluidEnergy => &["kinetic_energy"],
-        Probe::VolumeDefect => &["volume_defect"],
-        Probe::MeshQuality => &["smallest_ratio", "worst_shape"],
-        Probe::InterfaceWork => &["work"],
+    fn values(&mut self, run: &Run) -> Vec<f64> {
+        vec![self(run)]
     }
 }
 
-/// Where a probe looks. A value of the fluid is that of the mesh node nearest to the point.
-fn place(probe: &schema::Probe, run: &Run) -> Place {
-    use schema::Probe;
-    let mesh = || run.first().field().map(FluidSolver::mesh).expect("the scene was checked for its fluid");
-    Place::Fluid(match probe {
-        Probe::StructureDisplacement(xi) => {
-            return Place::Structure(StructurePlace::Displacement(xi.map(Parameter::get)));
-        }
-        Probe::StructurePoint(point) => {
-            let space = run.second().field().map(StructureSolver::space);
-            let place = space.and_then(|space| models::place_in(space, point.map(Real::get)));
-            let place = place.expect("the scene's probes were checked against its structure");
-            return Place::Structure(StructurePlace::Displacement(place));
-        }
-        Probe::StructureEnergy => return Place::Structure(StructurePlace::Energy),
-        Probe::FluidForce(groups) => FluidPlace::Force(groups.names().to_vec()),
-        Probe::FluidValue(point) => FluidPlace::Node(nearest_node(mesh(), point.map(Real::get))),
-        Probe::FluidExtremes(line) => {
-            FluidPlace::Line(Samples::new(mesh(), line.from.map(Real::get), line.to.map(Real::get)))
-        }
-        Probe::FluidError(known) => FluidPlace::Error(known.clone()),
-        Probe::FluidFlowRate(groups) => FluidPlace::FlowRate(groups.names().to_vec()),
-        Probe::FluidEnergy => FluidPlace::Energy,
-        Probe::VolumeDefect => FluidPlace::VolumeDefect,
-        Probe::MeshQuality => FluidPlace::MeshQuality,
-        Probe::InterfaceWork => FluidPlace::InterfaceWork,
-    })
+/// A probe of a run, with its name and what it saw last.
+pub(crate) struct Named {
+    pub(crate) name: String,
+    pub(crate) probe: Box<dyn Probe>,
+    /// Empty before the first step.
+    pub(crate) latest: Vec<f64>,
 }
 
-impl StructurePlace {
-    fn values(&self, structure: &StructureSolver<2>) -> Vec<f64> {
-        match self {
-            Self::Displacement(xi) => structure.displacement_at(xi).to_vec(),
-            Self::Energy => vec![structure.kinetic_energy(), structure.strain_energy()],
-        }
+impl Named {
+    pub(crate) fn new(name: String, probe: Box<dyn Probe>) -> Self {
+        Self { name, probe, latest: Vec::new() }
     }
-}
 
-impl FluidPlace {
-    /// The values of `fluid`, whose state is that at `time` \[s\].
-    fn values(&self, fluid: &FluidSolver<2>, time: f64) -> Vec<f64> {
-        const CHECKED: &str = "the scene's probes were checked against the groups of the mesh";
-        match self {
-            Self::Force(groups) => fluid.force_on_all(groups).expect(CHECKED).to_vec(),
-            Self::Node(node) => fluid.values()[3 * node..3 * node + 3].to_vec(),
-            Self::Line(samples) => samples.extremes(fluid.values()).as_flattened().to_vec(),
-            Self::Error(known) => {
-                exact::errors(known, fluid.mesh().cells(), fluid.points(), fluid.values(), time).to_vec()
-            }
-            Self::FlowRate(groups) => {
-                vec![groups.iter().map(|group| fluid.flow_rate(group).expect(CHECKED)).sum()]
-            }
-            Self::Energy => vec![fluid.kinetic_energy()],
-            Self::VolumeDefect => vec![fluid.volume_defect()],
-            Self::MeshQuality => fluid.mesh_quality().map_or_else(
-                || vec![1.0; 2],
-                |quality| vec![quality.smallest_ratio, quality.smallest_quality],
-            ),
-            Self::InterfaceWork => vec![fluid.interface_work()],
-        }
+    /// The names of its columns in a table of all probes.
+    pub(crate) fn columns(&self) -> impl Iterator<Item = String> {
+        self.probe.columns().into_iter().map(|quantity| format!("{}_{quantity}", self.name))
     }
 }

@@ -1,27 +1,22 @@
-//! A run from its first step, or its checkpoint, to its end: the time loop, and what is written on the way.
+//! The run of a scene in its folder, from its first step, or its checkpoint, to its end.
 
-use std::error::Error;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use partita_coupling::{IterationRecord, MarchState, Observer, RetryRecord, StepError, StepRecord};
-use partita_fluid::FluidState;
 use partita_numerics::Field;
-use partita_numerics::time::shown;
-use partita_structure::StructureState;
-use serde::{Deserialize, Serialize};
 
-use crate::adapt::SlotState;
-use crate::build::{self, BuildError, Run};
-use crate::checkpoint::{self, CheckpointError, Stamp};
-use crate::draw::Drawing;
+use crate::build;
+use crate::checkpoint::{self, Stamp};
+use crate::couple::FieldMarch;
 use crate::output::space::{self, Estimate};
-use crate::output::{Clock, Ending, OutputError, RunWriter, Spent, Summary};
-use crate::probe::Probes;
+use crate::output::{Clock, Ending, SCENE, Spent, Summary};
+use crate::run::Run;
 use crate::watch::Watcher;
 use partita_scene::Resolved;
 use partita_scene::schema::Scene;
+
+pub use crate::run::{RunError, RunState};
 
 /// How a run is to be carried out; nothing here changes its numbers.
 #[derive(Debug, Clone, Copy, Default)]
@@ -42,63 +37,11 @@ impl Options<'_> {
     }
 }
 
-/// Why a run could not go on.
-#[derive(Debug, thiserror::Error)]
-pub enum RunError {
-    /// The scene cannot be built.
-    #[error(transparent)]
-    Build(#[from] BuildError),
-    /// A step could not be solved; the run's folder holds what was reached.
-    #[error(transparent)]
-    Step(#[from] StepError),
-    /// The output folder.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// What a step came to could not be written.
-    #[error("step {step} (t = {} s), output: {}\nhint: see that the folder can be written and has space; {}", shown(*time), first_line(source), way_back(dir, *checkpoint))]
-    Storage {
-        /// The last step that was solved.
-        step: usize,
-        /// The time at its end \[s\].
-        time: f64,
-        /// The run's folder.
-        dir: PathBuf,
-        /// The step of its last checkpoint.
-        checkpoint: Option<usize>,
-        /// Which file, and why.
-        source: Box<RunError>,
-    },
-    /// The checkpoint.
-    #[error(transparent)]
-    Checkpoint(#[from] CheckpointError),
-    /// The checkpoint belongs to another scene.
-    #[error(
-        "the checkpoint does not fit the scene beside it: {0}\nhint: the scene of a run must not be changed before it is resumed; start a new run instead"
-    )]
-    Misfit(String),
-}
-
-/// Everything a run remembers between two steps.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct RunState {
-    /// The scene as far as it decides about the numbers of a step.
-    scene: String,
-    march: MarchState,
-    fluid: SlotState<FluidState>,
-    structure: SlotState<StructureState>,
-}
-
-/// A run in progress.
+/// A run of a scene in progress.
 pub struct Session<'a> {
     run: Run,
-    resolved: &'a Resolved,
     scene: &'a Scene,
-    probes: Probes,
-    drawing: Drawing,
-    writer: RunWriter,
     options: Options<'a>,
-    /// The step of the last checkpoint in the folder.
-    saved: Option<usize>,
     /// What the user should know before the first step.
     note: Option<String>,
 }
@@ -115,33 +58,27 @@ impl<'a> Session<'a> {
         options: Options<'a>,
         clock: Clock,
     ) -> Result<Self, RunError> {
-        Self::start_with(build::run_on(resolved, options.threads())?, resolved, dir, options, clock)
+        Self::start_with(build::march_on(resolved, options.threads())?, resolved, dir, options, clock)
     }
 
-    /// The same with the run that was built from the scene.
+    /// The same with the fields that were built from the scene.
     ///
     /// # Errors
     /// When the folder cannot be written, or its disk has less space than the run will fill.
     pub fn start_with(
-        run: Run,
+        march: FieldMarch,
         resolved: &'a Resolved,
         dir: &Path,
         options: Options<'a>,
         clock: Clock,
     ) -> Result<Self, RunError> {
-        let scene = &resolved.scene;
-        let probes = Probes::new(&scene.output.probes, &run);
-        let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
-        estimate(&run, resolved, &drawing, options).check(dir)?;
-        let mut writer = RunWriter::create(dir, &resolved.to_toml(), probes.columns(), clock)?;
-        writer.keep(&resolved.shapes.inputs)?;
-        if scene.output.fields_every > 0 {
-            drawing.write(&run, &mut writer, 0, 0.0)?;
-        }
-        Ok(Self { run, resolved, scene, probes, drawing, writer, options, saved: None, note: None })
+        let mut run = Run::of_march(march, resolved);
+        estimate(&run, &resolved.scene, options).check(dir)?;
+        run.start_folder(dir, (SCENE, &resolved.to_toml()), &resolved.shapes.inputs, clock)?;
+        Ok(Self { run, scene: &resolved.scene, options, note: None })
     }
 
-    /// Takes up the run in the folder `dir`, which holds this scene, at its checkpoint.
+    /// Resumes the run in the folder `dir`, which holds this scene, at its checkpoint.
     ///
     /// # Errors
     /// When there is no usable checkpoint, the folder does not fit it, or the disk has less space than the rest of the
@@ -153,18 +90,15 @@ impl<'a> Session<'a> {
         clock: Clock,
     ) -> Result<Self, RunError> {
         let checkpoint = checkpoint::load::<RunState>(dir)?;
-        let mut run = build::run_on(resolved, options.threads())?;
-        checkpoint.state.restore(&mut run, resolved)?;
-        let scene = &resolved.scene;
-        let probes = Probes::new(&scene.output.probes, &run);
-        let drawing = Drawing::new(&run, scene.output.spline_subdivisions.get());
-        estimate(&run, resolved, &drawing, options).check(dir)?;
-        let writer = RunWriter::resume(dir, &checkpoint.stamp, probes.columns(), clock)?;
+        let mut run = Run::of_march(build::march_on(resolved, options.threads())?, resolved);
+        run.restore(&checkpoint.state)?;
+        estimate(&run, &resolved.scene, options).check(dir)?;
+        run.resume_folder(dir, &checkpoint.stamp, clock)?;
         let step = checkpoint.stamp.step;
         let note = checkpoint.latest_unusable.map(|error| {
             format!("the latest checkpoint is not usable, the run goes on after step {step}\n{error}")
         });
-        Ok(Self { run, resolved, scene, probes, drawing, writer, options, saved: Some(step), note })
+        Ok(Self { run, scene: &resolved.scene, options, note })
     }
 
     /// Steps to the end of the scene, or to where the options say, and writes the summary, with nobody watching.
@@ -185,110 +119,26 @@ impl<'a> Session<'a> {
     pub fn finish_watched(mut self, watcher: &mut dyn Watcher) -> Result<Summary, RunError> {
         let last =
             self.options.steps.map_or(self.scene.time.steps.get(), |s| s.min(self.scene.time.steps.get()));
-        watcher.begins(last, self.done());
+        watcher.begins(last, self.run.done());
         if let Some(note) = &self.note {
             watcher.note(note);
         }
-        let outcome = self.march_to(last, watcher).and_then(|ending| {
-            self.save_if_wanted()?;
-            Ok(ending)
-        });
+        let outcome = self.march_to(last, watcher);
         watcher.ends();
-        match outcome {
-            Ok(ending) => Ok(self.writer.finish(ending)?),
-            Err(error @ RunError::Step(_)) => Err(self.give_up(error, watcher)),
-            Err(error) => Err(self.break_off(error)),
-        }
-    }
-
-    /// Writes what a failed step leaves: the fields and the checkpoint before it, and the summary. What cannot be written
-    /// is said, but the step's error is the one that counts.
-    fn give_up(mut self, error: RunError, watcher: &mut dyn Watcher) -> RunError {
-        let drawn = self.draw().map_err(RunError::from);
-        let saved = self.save_if_wanted();
-        let summed = self.writer.fail(first_line(&error)).map(drop).map_err(RunError::from);
-        for lost in [drawn, saved, summed].into_iter().filter_map(Result::err) {
-            watcher.note(&format!("warning: {}", first_line(&lost)));
-        }
-        error
-    }
-
-    /// The folder takes no more: says where the run can be taken up again. The files are left as they are, for a later
-    /// checkpoint would be ahead of them.
-    fn break_off(self, error: RunError) -> RunError {
-        let clock = self.run.clock();
-        let error = RunError::Storage {
-            step: clock.steps,
-            time: clock.time,
-            dir: self.writer.dir().to_owned(),
-            checkpoint: self.saved,
-            source: Box::new(error),
-        };
-        // A small file may still fit; that it does not is no news.
-        let _ = self.writer.fail(first_line(&error));
-        error
+        let summary = self.run.end(outcome?)?;
+        Ok(summary.expect("a session has a folder"))
     }
 
     fn march_to(&mut self, last: usize, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
-        while self.done() < last {
-            self.step(watcher)?;
+        while self.run.done() < last {
+            self.run.step_watched(watcher)?;
             let stop = self.options.stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
-            if stop && self.done() < last {
+            if stop && self.run.done() < last {
                 return Ok(Ending::Interrupted);
             }
         }
-        let completed = self.done() >= self.scene.time.steps.get();
+        let completed = self.run.done() >= self.scene.time.steps.get();
         Ok(if completed { Ending::Completed } else { Ending::Stopped })
-    }
-
-    /// Steps of the scene that are done; where some were halved, the run has made more.
-    fn done(&self) -> usize {
-        self.scene.time.sizes().done(&self.run.clock())
-    }
-
-    fn step(&mut self, watcher: &mut dyn Watcher) -> Result<(), RunError> {
-        let sizes = self.scene.time.sizes();
-        let mut scribe = Scribe { writer: &mut self.writer, watcher: &mut *watcher, refused: None };
-        let result = self.run.step_or_halve(&sizes, &mut scribe);
-        if let Some(refused) = scribe.refused {
-            return Err(refused.into());
-        }
-        let step = result?.step;
-        self.writer.probes(step, self.run.clock().time, &self.probes.values(&self.run))?;
-        let clock = self.run.clock();
-        let (done, on_grid) = (sizes.done(&clock), sizes.on_grid(&clock));
-        watcher.reaches(done);
-        let due = |every: usize| every > 0 && on_grid && done.is_multiple_of(every);
-        if due(self.scene.output.fields_every) {
-            self.draw()?;
-        }
-        if due(self.scene.output.checkpoint_every) {
-            self.save()?;
-        }
-        Ok(())
-    }
-
-    /// Draws the committed state, unless that is there already.
-    fn draw(&mut self) -> Result<(), OutputError> {
-        let clock = self.run.clock();
-        if self.writer.shows(clock.time) {
-            return Ok(());
-        }
-        self.drawing.write(&self.run, &mut self.writer, clock.steps, clock.time)
-    }
-
-    fn save(&mut self) -> Result<(), RunError> {
-        let clock = self.run.clock();
-        let stamp = self.writer.stamp(clock.steps, clock.time)?;
-        checkpoint::save(self.writer.dir(), &stamp, &RunState::of(&self.run, self.resolved))?;
-        self.saved = Some(clock.steps);
-        Ok(())
-    }
-
-    fn save_if_wanted(&mut self) -> Result<(), RunError> {
-        // A second one of the same step would push the one before out of the folder.
-        let due = self.scene.output.checkpoint_every > 0 && self.saved != Some(self.run.clock().steps);
-        if due { self.save() } else { Ok(()) }
     }
 }
 
@@ -305,22 +155,18 @@ pub fn steps_done(resolved: &Resolved, dir: &Path) -> Result<usize, RunError> {
 const ITERATIONS_A_STEP: usize = 8;
 
 /// What the rest of `run` will write, roughly.
-fn estimate(run: &Run, resolved: &Resolved, drawing: &Drawing, options: Options) -> Estimate {
-    let scene = &resolved.scene;
+fn estimate(run: &Run, scene: &Scene, options: Options) -> Estimate {
     let all = scene.time.steps.get();
-    let steps = options
-        .steps
-        .map_or(all, |steps| steps.min(all))
-        .saturating_sub(scene.time.sizes().done(&run.clock()));
+    let steps = options.steps.map_or(all, |steps| steps.min(all)).saturating_sub(run.done());
     let iterations = if scene.coupling.is_some() { ITERATIONS_A_STEP } else { 1 };
     let mut estimate = Estimate::of_records(steps, iterations);
     if let Some(files) = steps.checked_div(scene.output.fields_every) {
-        estimate = drawing.add_to(estimate, run, files);
+        estimate = run.drawing().add_to(estimate, run.march(), files);
     }
-    if scene.output.checkpoint_every > 0 {
+    if run.checkpoint_every() > 0 {
         let stamp = Stamp { step: 0, time: 0.0, spent: Spent::default() };
-        let bytes = checkpoint::encoded_len(&stamp, &RunState::of(run, resolved));
-        // Where a run is taken up there are two already, which the new ones replace.
+        let bytes = checkpoint::encoded_len(&stamp, &run.state());
+        // Where a run is resumed there are two already, which the new ones replace.
         let count = if run.clock().steps == 0 { space::CHECKPOINTS } else { 1 };
         estimate = estimate.with_checkpoints(count, bytes.unwrap_or_default() + most_kept_bytes(run));
     }
@@ -329,83 +175,11 @@ fn estimate(run: &Run, resolved: &Resolved, drawing: &Drawing, options: Options)
 
 /// Bytes of the tangents that a checkpoint of `run` may hold once there are factors.
 fn most_kept_bytes(run: &Run) -> usize {
-    let entries = run.first().field().map_or(0, most_entries) + run.second().field().map_or(0, most_entries);
+    let entries = run.fluid().map_or(0, most_entries) + run.structure().map_or(0, most_entries);
     entries * size_of::<f64>()
 }
 
 /// Most entries of a tangent that a checkpoint will hold.
 fn most_entries<F: Field>(field: &F) -> usize {
     if field.keeps_factor() { field.tangent().1.len() } else { 0 }
-}
-
-/// What happened, without the hint.
-fn first_line(error: &RunError) -> String {
-    error.to_string().lines().next().unwrap_or_default().to_owned()
-}
-
-fn way_back(dir: &Path, checkpoint: Option<usize>) -> String {
-    let dir = dir.display();
-    match checkpoint {
-        Some(step) => {
-            format!("`partita resume {dir}` then goes on after step {step}, that of the last checkpoint")
-        }
-        None => format!("there is no checkpoint in {dir} yet: start the run again with --force"),
-    }
-}
-
-impl RunState {
-    /// What `run` of `scene` remembers now.
-    fn of(run: &Run, scene: &Resolved) -> Self {
-        Self {
-            scene: scene.decisive(),
-            march: run.state(),
-            fluid: run.first().state(),
-            structure: run.second().state(),
-        }
-    }
-
-    /// Puts `run` of `scene` where this state was taken.
-    fn restore(&self, run: &mut Run, scene: &Resolved) -> Result<(), RunError> {
-        let now = scene.decisive();
-        if let Some((then, now)) = self.scene.lines().zip(now.lines()).find(|(then, now)| then != now) {
-            return Err(RunError::Misfit(format!("`{}` is now `{}`", then.trim(), now.trim())));
-        }
-        let misfit = |error: &dyn Error| RunError::Misfit(error.to_string());
-        run.restore(&self.march).map_err(|error| misfit(&error))?;
-        let (fluid, structure) = run.participants_mut();
-        fluid.restore(&self.fluid).map_err(|error| misfit(&error))?;
-        structure.restore(&self.structure).map_err(|error| misfit(&error))
-    }
-}
-
-/// Passes what happens inside a step on to files and watcher; keeps the first refusal for after the step.
-struct Scribe<'a> {
-    writer: &'a mut RunWriter,
-    watcher: &'a mut dyn Watcher,
-    refused: Option<OutputError>,
-}
-
-impl Scribe<'_> {
-    /// Writes, unless the folder has refused before: behind half a line nothing can be read.
-    fn write(&mut self, write: impl FnOnce(&mut RunWriter) -> Result<(), OutputError>) {
-        if self.refused.is_none() {
-            self.refused = write(self.writer).err();
-        }
-    }
-}
-
-impl Observer for Scribe<'_> {
-    fn iteration(&mut self, record: &IterationRecord) {
-        self.write(|writer| writer.iteration(record));
-        self.watcher.iteration(record);
-    }
-
-    fn step_finished(&mut self, record: &StepRecord) {
-        self.write(|writer| writer.step(record));
-    }
-
-    fn step_retried(&mut self, record: &RetryRecord) {
-        self.write(|writer| writer.retry(record));
-        self.watcher.retried(record);
-    }
 }

@@ -19,7 +19,7 @@ use serde::{Serialize, Serializer};
 
 pub use partita_scene::warning::Kind;
 
-use crate::build::Run;
+use crate::build::FieldMarch;
 use partita_scene::Resolved;
 use scales::FlowScales;
 
@@ -57,7 +57,7 @@ impl fmt::Display for Warning {
 
 /// All warnings about a scene and the run that was built from it, accepted ones included.
 #[must_use]
-pub fn of(resolved: &Resolved, run: &Run) -> Vec<Warning> {
+pub fn of(resolved: &Resolved, run: &FieldMarch) -> Vec<Warning> {
     let mut found = Found { resolved, warnings: Vec::new() };
     let flow = FlowScales::of(resolved, run);
     if let (Some(fluid), Some(solver), Some(flow)) = (&resolved.scene.fluid, run.first().field(), &flow) {
@@ -92,7 +92,7 @@ pub fn of(resolved: &Resolved, run: &Run) -> Vec<Warning> {
 }
 
 /// What the first vibration of the structure tells of the step and of the coupling.
-fn in_time(found: &mut Found<'_>, run: &Run) {
+fn in_time(found: &mut Found<'_>, run: &FieldMarch) {
     let scene = &found.resolved.scene;
     let (Some(structure), Some(solver)) = (&scene.structure, run.second().field()) else { return };
     if scene.fluid.is_some() && scene.moves_the_interface() {

@@ -18,7 +18,9 @@ fn deflected(size: [f64; 2], elements: [usize; 2]) -> StructureSolver<2> {
     let patch = build::rectangle([0.0, 0.0], size, [2, 2], elements).expect("a valid rectangle");
     let model = StructureModel {
         density: 1000.0,
-        material: Material::new(Law::StVenantKirchhoff, 5e6, 0.3, Plane::Strain).expect("a valid material"),
+        material: Material::new(Law::StVenantKirchhoff, 5e6, 0.3, Plane::Strain)
+            .expect("a valid material")
+            .into(),
         body_force: BodyForce::Constant([0.0, -9.81e3]),
         clamped: [Side::LEFT, Side::RIGHT].into(),
         held: Vec::new(),

@@ -7,8 +7,8 @@ use partita_numerics::{Connectivity, DofMap, Pattern, Scatter};
 
 use crate::elements::Elements;
 use crate::error::StructureError;
-use crate::kernel::{self, Blocks, PointError};
-use crate::material::Material;
+use crate::kernel::{self, Blocks, Element, PointError};
+use crate::material::AnyMaterial;
 use crate::model::Rayleigh;
 use crate::step::TangentWeights;
 
@@ -56,27 +56,28 @@ pub(crate) struct Assembly<const D: usize> {
     pattern: Pattern,
     scatter: Scatter,
     density: f64,
-    material: Material,
+    material: AnyMaterial<D>,
     has_inertia: bool,
-    damping: Option<Damping>,
+    damping: Option<Damping<D>>,
     /// M on the pattern; empty where nothing needs it.
     mass: Vec<f64>,
 }
 
 /// Why the material of `K_0` cannot fail.
-const HOOKE: &str = "Hooke's law has a stress for every strain";
+const HOOKE: &str =
+    "a linear law has a stress for every strain, and every law was asked for its tangent at rest";
 
 /// Rayleigh damping, C = mass M + stiffness `K_0`.
-struct Damping {
+struct Damping<const D: usize> {
     rayleigh: Rayleigh,
     /// The material of `K_0`.
-    linearized: Material,
+    linearized: AnyMaterial<D>,
     /// C on the pattern.
     matrix: Vec<f64>,
 }
 
 impl<const D: usize> Assembly<D> {
-    pub(crate) fn new(elements: Elements<D>, dofs: DofMap, density: f64, material: Material) -> Self {
+    pub(crate) fn new(elements: Elements<D>, dofs: DofMap, density: f64, material: AnyMaterial<D>) -> Self {
         let connectivity = elements.connectivity();
         let pattern = Pattern::new(&dofs, &[&connectivity]);
         let scatter = Scatter::new(&pattern, &dofs, &connectivity);
@@ -114,26 +115,19 @@ impl<const D: usize> Assembly<D> {
         for (c, m) in matrix.iter_mut().zip(&self.mass) {
             *c += rayleigh.mass * m;
         }
-        self.damping = Some(Damping { rayleigh, linearized: self.material.linearized(), matrix });
+        self.damping =
+            Some(Damping { rayleigh, linearized: self.material.linearized().expect(HOOKE), matrix });
         self
     }
 
     /// `factor K_0` on the pattern: the stiffness of the undeformed structure.
     pub(crate) fn linear_stiffness(&self, factor: f64) -> Vec<f64> {
-        let linearized = self.material.linearized();
+        let linearized = self.material.linearized().expect(HOOKE);
         self.matrix(|e, Local { field, force, matrix, blocks, .. }| {
             let element = self.elements.element(e);
             field.fill([0.0; D]);
-            kernel::add_internal_force_and_tangent(
-                element,
-                &linearized,
-                field,
-                factor,
-                force,
-                matrix,
-                blocks,
-            )
-            .expect(HOOKE);
+            add_internal_force_and_tangent(element, &linearized, field, factor, force, matrix, blocks)
+                .expect(HOOKE);
         })
     }
 
@@ -233,7 +227,7 @@ impl<const D: usize> Assembly<D> {
 
     /// Strain energy of a displacement `[J, in 2D J/m]`.
     pub(crate) fn strain_energy(&self, displacement: &[f64]) -> f64 {
-        self.sum(displacement, |e, d| kernel::strain_energy(self.elements.element(e), &self.material, d))
+        self.sum(displacement, |e, d| kernel::strain_energy(self.elements.element(e), self.material.law(), d))
     }
 
     /// Kinetic energy of a velocity `[J, in 2D J/m]`.
@@ -257,7 +251,7 @@ impl<const D: usize> Assembly<D> {
     }
 
     fn internal_force(&self, e: usize, local: &mut Local<D>) -> Result<(), StructureError> {
-        kernel::add_internal_force(self.elements.element(e), &self.material, &local.field, &mut local.force)
+        add_internal_force(self.elements.element(e), &self.material, &local.field, &mut local.force)
             .map_err(|error| self.deformed_too_far(e, error))
     }
 
@@ -268,7 +262,7 @@ impl<const D: usize> Assembly<D> {
         local: &mut Local<D>,
     ) -> Result<(), StructureError> {
         let Local { field, force, matrix, blocks, .. } = local;
-        kernel::add_internal_force_and_tangent(
+        add_internal_force_and_tangent(
             self.elements.element(e),
             &self.material,
             field,
@@ -303,7 +297,7 @@ impl<const D: usize> Assembly<D> {
             kernel::add_inertia(element, mass * self.density, &local.field, &mut local.force);
             // K_0 v is the internal force of the linear material at the displacement v.
             local.field.as_flattened_mut().iter_mut().for_each(|v| *v *= stiffness);
-            kernel::add_internal_force(element, linearized, &local.field, &mut local.force).expect(HOOKE);
+            add_internal_force(element, linearized, &local.field, &mut local.force).expect(HOOKE);
             add_vector(&self.connectivity, e, local.force.as_flattened(), &mut forces.damping);
         }
     }
@@ -328,6 +322,43 @@ impl<const D: usize> Assembly<D> {
             quantity(e, &local.field)
         };
         (0..self.elements.len()).map(of_element).sum()
+    }
+}
+
+/// [`kernel::add_internal_force`], where the usual materials are called directly and the others through their trait.
+#[inline]
+fn add_internal_force<const D: usize>(
+    element: Element<D>,
+    material: &AnyMaterial<D>,
+    displacement: &[[f64; D]],
+    force: &mut [[f64; D]],
+) -> Result<(), PointError> {
+    match material {
+        AnyMaterial::Isotropic(material) => {
+            kernel::add_internal_force(element, material, displacement, force)
+        }
+        AnyMaterial::Custom(law) => kernel::add_internal_force(element, law.as_ref(), displacement, force),
+    }
+}
+
+/// [`kernel::add_internal_force_and_tangent`] in the same way.
+#[inline]
+fn add_internal_force_and_tangent<const D: usize>(
+    element: Element<D>,
+    material: &AnyMaterial<D>,
+    field: &[[f64; D]],
+    scale: f64,
+    force: &mut [[f64; D]],
+    matrix: &mut [f64],
+    blocks: &mut Blocks<D>,
+) -> Result<(), PointError> {
+    match material {
+        AnyMaterial::Isotropic(material) => {
+            kernel::add_internal_force_and_tangent(element, material, field, scale, force, matrix, blocks)
+        }
+        AnyMaterial::Custom(law) => {
+            kernel::add_internal_force_and_tangent(element, law.as_ref(), field, scale, force, matrix, blocks)
+        }
     }
 }
 

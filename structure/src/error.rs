@@ -52,6 +52,16 @@ pub enum StructureError {
     /// Plane stress was asked for in three dimensions.
     #[error("plane stress has no meaning in three dimensions\nhint: leave the plane assumption at `strain`")]
     PlaneStressInSpace,
+    /// A material cannot say what stress it has where nothing is deformed.
+    #[error(
+        "material `{material}`: it has no stress at rest: {source}\nhint: at rest every law must have a stress and a tangent; `partita_structure::conformance::check_material` looks at both"
+    )]
+    NoStressAtRest {
+        /// Its name.
+        material: String,
+        /// What it says.
+        source: ResponseError,
+    },
     /// The patch does not fill the space it lies in.
     #[error(
         "a patch of {parameters} parameters is no solid in {dimensions} dimensions\n\

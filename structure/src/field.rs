@@ -6,7 +6,6 @@ use partita_numerics::norms::{extent, largest_at};
 use partita_numerics::{Pattern, PhaseSeconds, Place};
 
 use crate::error::StructureError;
-use crate::material::Law;
 use crate::solver::StructureSolver;
 use crate::state::StructureState;
 use crate::step::Step;
@@ -63,7 +62,7 @@ impl<const D: usize> Field for StructureSolver<D> {
     /// # Errors
     /// [`StructureError::Folded`] names the element of the smallest determinant.
     fn verify(&mut self) -> Result<(), StructureError> {
-        if self.model.material.law() == Law::LinearElastic {
+        if self.model.material.is_linear() {
             return Ok(());
         }
         match self.assembly.fold(&self.trial.displacement, &mut self.work.local) {

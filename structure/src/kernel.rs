@@ -14,7 +14,7 @@ use partita_numerics::small;
 
 pub use round_off::add_rounding;
 
-use crate::material::{Material, ResponseError};
+use crate::material::{Constitutive, ResponseError};
 use crate::tensor::{self, Tensor};
 
 /// One element as quadrature sees it; it lives in the reference configuration and never changes.
@@ -160,7 +160,7 @@ impl<const D: usize> Point<'_, D> {
 /// When the material has no stress at a quadrature point; `force` is then incomplete.
 pub fn add_internal_force<const D: usize>(
     element: Element<D>,
-    material: &Material,
+    material: &(impl Constitutive<D> + ?Sized),
     displacement: &[[f64; D]],
     force: &mut [[f64; D]],
 ) -> Result<(), PointError> {
@@ -191,7 +191,7 @@ fn at(point: usize) -> impl Fn(ResponseError) -> PointError {
 /// When the material has no stress at a quadrature point; `force` and `tangent` are then incomplete.
 pub fn add_internal_force_and_tangent<const D: usize>(
     element: Element<D>,
-    material: &Material,
+    material: &(impl Constitutive<D> + ?Sized),
     displacement: &[[f64; D]],
     scale: f64,
     force: &mut [[f64; D]],
@@ -305,7 +305,7 @@ pub fn smallest_determinant<const D: usize>(element: Element<D>, displacement: &
 #[must_use]
 pub fn strain_energy<const D: usize>(
     element: Element<D>,
-    material: &Material,
+    material: &dyn Constitutive<D>,
     displacement: &[[f64; D]],
 ) -> f64 {
     element.assert_fits(displacement);
@@ -328,7 +328,7 @@ pub fn kinetic_energy<const D: usize>(element: Element<D>, density: f64, velocit
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::{Law, Plane};
+    use crate::material::{Law, Material, Plane};
     use approx::assert_relative_eq;
 
     /// A triangle of three nodes, (0,0), (2,0), (0,1), integrated by its three edge midpoints.

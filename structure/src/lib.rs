@@ -8,6 +8,7 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`material`] | stress and tangent from the displacement gradient |
+//! | [`conformance`] | a check for everybody who writes a material |
 //! | [`kernel`] | the element: internal force, tangent, mass, energies |
 //! | [`space`], [`patch`], [`elements`] | geometry and displacement space; shape functions tabulated once |
 //! | [`boundary`], `wetted` | names of its parts; their elements and ends |
@@ -24,6 +25,7 @@
 //! of depth.
 
 pub mod boundary;
+pub mod conformance;
 pub mod elements;
 pub mod error;
 pub mod interface;
@@ -52,7 +54,10 @@ pub use boundary::Boundary;
 pub use error::StructureError;
 pub use interface::{InterfaceRow, Segment};
 pub use load::{BodyForce, VectorField};
-pub use material::{Law, Material, MaterialError, Plane, Response, ResponseError};
+pub use material::{
+    AnyMaterial, Constitutive, Law, Material, MaterialError, Plane, PlaneStrain, PlaneStress, Response,
+    ResponseError,
+};
 pub use model::{LineSearch, Rayleigh, StructureModel, StructureSettings};
 pub use modes::Mode;
 pub use partita_numerics::Field;

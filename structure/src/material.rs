@@ -1,11 +1,15 @@
 //! Isotropic elastic laws: stress, tangent and stored energy from the displacement gradient.
 
+mod constitutive;
 mod neo_hookean;
+mod plane;
 
 use serde::{Deserialize, Serialize};
 
 use crate::tensor::{self, Tensor};
+pub use constitutive::{AnyMaterial, Constitutive};
 use neo_hookean::NeoHookean;
+pub use plane::{PlaneStrain, PlaneStress};
 
 /// The relation between deformation and stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -66,6 +70,12 @@ pub enum ResponseError {
     NoPlaneStress {
         /// det F in the plane.
         area_ratio: f64,
+    },
+    /// A law from outside this crate has no stress.
+    #[error("{what}")]
+    Undefined {
+        /// What about the deformation is beyond it.
+        what: &'static str,
     },
 }
 
@@ -278,7 +288,7 @@ impl Material {
 
 /// F = I + grad d
 #[inline]
-fn deformation_gradient<const D: usize>(gradient: &Tensor<D>) -> Tensor<D> {
+pub(crate) fn deformation_gradient<const D: usize>(gradient: &Tensor<D>) -> Tensor<D> {
     tensor::build(|i, j| gradient[i][j] + if i == j { 1.0 } else { 0.0 })
 }
 
@@ -290,7 +300,8 @@ fn small_strain<const D: usize>(gradient: &Tensor<D>) -> Tensor<D> {
 
 /// E = (grad d + grad d^T + grad d^T grad d)/2: as (F^T F - I)/2, but small strains keep all their digits.
 #[inline]
-fn green_lagrange<const D: usize>(gradient: &Tensor<D>) -> Tensor<D> {
+#[must_use]
+pub fn green_lagrange<const D: usize>(gradient: &[[f64; D]; D]) -> [[f64; D]; D] {
     tensor::build(|i, j| {
         let product: f64 = (0..D).map(|k| gradient[k][i] * gradient[k][j]).sum();
         0.5 * (gradient[i][j] + gradient[j][i] + product)

@@ -5,7 +5,7 @@ use partita_numerics::newton;
 use crate::boundary::Boundary;
 use crate::error::StructureError;
 use crate::load::BodyForce;
-use crate::material::{Material, Plane};
+use crate::material::{AnyMaterial, Plane};
 use crate::step::TimeScheme;
 use crate::support::Held;
 
@@ -15,7 +15,7 @@ pub struct StructureModel<const D: usize> {
     /// Mass per reference volume rho `[kg/m^3]`.
     pub density: f64,
     /// The elastic law.
-    pub material: Material,
+    pub material: AnyMaterial<D>,
     /// Force per reference volume b `[N/m^3]`.
     pub body_force: BodyForce<D>,
     /// Parts of the boundary whose nodes do not move: sides of a patch, groups of a mesh.
@@ -27,12 +27,32 @@ pub struct StructureModel<const D: usize> {
 }
 
 impl<const D: usize> StructureModel<D> {
+    /// A structure under no load that nothing holds, of a density `[kg/m^3]` and a material.
+    #[must_use]
+    pub fn new(density: f64, material: impl Into<AnyMaterial<D>>) -> Self {
+        Self {
+            density,
+            material: material.into(),
+            body_force: BodyForce::Constant([0.0; D]),
+            clamped: Boundary::NONE,
+            held: Vec::new(),
+            wetted: Boundary::NONE,
+        }
+    }
+
     pub(crate) fn check(&self) -> Result<(), StructureError> {
         if !(self.density > 0.0 && self.density.is_finite()) {
             return Err(StructureError::Density { value: self.density });
         }
-        if D == 3 && self.material.plane() == Plane::Stress {
+        if let AnyMaterial::Isotropic(material) = &self.material
+            && D == 3
+            && material.plane() == Plane::Stress
+        {
             return Err(StructureError::PlaneStressInSpace);
+        }
+        let law = self.material.law();
+        if let Err(source) = law.response(&[[0.0; D]; D]) {
+            return Err(StructureError::NoStressAtRest { material: law.name().to_owned(), source });
         }
         Ok(())
     }

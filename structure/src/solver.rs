@@ -36,7 +36,7 @@ use crate::step::{Scheme, Step};
 /// let patch = build::rectangle([0.0, 0.0], [1.0, 0.1], [2, 2], [10, 1])?;
 /// let model = StructureModel {
 ///     density: 1000.0,
-///     material: Material::new(Law::StVenantKirchhoff, 1e7, 0.3, Plane::Strain)?,
+///     material: Material::new(Law::StVenantKirchhoff, 1e7, 0.3, Plane::Strain)?.into(),
 ///     body_force: BodyForce::Constant([0.0, -9.81e3]),
 ///     clamped: Side::LEFT.into(),
 ///     held: Vec::new(),
@@ -109,7 +109,7 @@ impl<const D: usize> StructureSolver<D> {
             return Err(StructureError::NothingFree);
         }
         let parts = [Part { name: "displacement", dofs: dofs.free().to_vec() }];
-        let mut assembly = Assembly::new(elements, dofs, model.density, model.material);
+        let mut assembly = Assembly::new(elements, dofs, model.density, model.material.clone());
         let has_inertia = scheme != Scheme::QuasiStatic;
         if has_inertia || settings.rayleigh.is_some() {
             assembly = assembly.with_mass();

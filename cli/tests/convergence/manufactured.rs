@@ -19,7 +19,7 @@ fn velocity_errors(scheme: &str, steps: [usize; 3]) -> [f64; 3] {
             format!("time.step={}", 0.5 / steps[level] as f64),
         ];
         let scene = scene::load(&folder, &overrides).expect("the shipped scene is sound");
-        let mut run = build::run(&scene).expect("it is built");
+        let mut run = build::march(&scene).expect("it is built");
         for _ in 0..steps[level] {
             run.step(scene.scene.time.step.get(), &mut ()).expect("it converges");
         }

@@ -94,7 +94,7 @@ fn run(steps: u32, overrides: &[&str]) -> State {
 fn run_in(sizes: &[f64], overrides: &[&str]) -> State {
     let overrides: Vec<String> = overrides.iter().map(|&given| given.to_owned()).collect();
     let tank = scene::read_in("".as_ref(), "tank", TANK, &overrides).expect("a sound scene");
-    let mut run = build::run(&tank).expect("the scene builds");
+    let mut run = build::march(&tank).expect("the scene builds");
     for &dt in sizes {
         run.step(dt, &mut ()).expect("the step converges");
     }

@@ -24,7 +24,7 @@ fn first_steps_of_the_beam_cost_what_they_did() {
             &format!("coupling.newton.fixed.fluid={limits}"),
             &format!("coupling.newton.fixed.structure={limits}"),
         ]);
-        let mut run = build::run(&beam).expect("the scene builds");
+        let mut run = build::march(&beam).expect("the scene builds");
         let mut records: Vec<Record> = Vec::new();
         for _ in 0..3 {
             run.step(beam.scene.time.step.get(), &mut records).expect("the step converges");
@@ -53,7 +53,7 @@ fn the_residual_is_judged_beside_the_changes_where_the_scene_asks_for_it() {
             "coupling.acceleration.constant.relaxation=0.1",
             &format!("coupling.convergence.{criterion}=1e-2"),
         ]);
-        let mut run = build::run(&beam).expect("the scene builds");
+        let mut run = build::march(&beam).expect("the scene builds");
         run.step(beam.scene.time.step.get(), &mut ()).expect("the step converges")
     });
     assert!(changes.largest_change < 1e-2 && both.largest_change < 1e-2);
@@ -65,7 +65,7 @@ fn the_residual_is_judged_beside_the_changes_where_the_scene_asks_for_it() {
 /// Nodes of the mesh at both ends of the tip carry the load to one control point each.
 #[test]
 fn the_mesh_meets_the_beam_on_three_sides() {
-    let run = build::run(&beam(&[])).expect("the scene builds");
+    let run = build::march(&beam(&[])).expect("the scene builds");
     let (fluid, structure) =
         (run.first().field().expect("a fluid"), run.second().field().expect("a structure"));
     assert_eq!(fluid.mesh().cells().len(), 769);

@@ -23,7 +23,7 @@ fn second_difference(time_scheme: &str) -> f64 {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/beam-in-channel");
     let overrides: Vec<String> = FLAP.iter().chain([&time_scheme]).map(|&given| given.to_owned()).collect();
     let flap = scene::load(&folder, &overrides).expect("the flap is sound");
-    let mut run = build::run(&flap).expect("the flap builds");
+    let mut run = build::march(&flap).expect("the flap builds");
     let mut forces = Vec::new();
     for _ in 0..40 {
         run.step(flap.scene.time.step.get(), &mut ()).expect("the step converges");

@@ -3,7 +3,7 @@ use partita_numerics::Field;
 
 use std::path::Path;
 
-use partita::build::{self, Run};
+use partita::build::{self, FieldMarch};
 use partita::output::Totals;
 use partita::plan::{Plan, Runs};
 use partita::scene::schema::Condition;
@@ -19,7 +19,7 @@ fn tank(overrides: &[&str]) -> Resolved {
 
 /// The first steps of a scene.
 fn steps(scene: &Resolved, count: usize) -> Vec<StepRecord> {
-    let mut run = build::run(scene).expect("the scene builds");
+    let mut run = build::march(scene).expect("the scene builds");
     (0..count).map(|_| run.step(scene.scene.time.step.get(), &mut ()).expect("the step converges")).collect()
 }
 
@@ -59,7 +59,7 @@ fn an_incremental_mesh_motion_is_factored_once_a_step() {
 
 /// Displacements of the interface after the last step.
 fn after(scene: &Resolved, count: usize) -> (Vec<StepRecord>, Vec<f64>) {
-    let mut run = build::run(scene).expect("the scene builds");
+    let mut run = build::march(scene).expect("the scene builds");
     let mut step = || run.step(scene.scene.time.step.get(), &mut ()).expect("the step converges");
     let steps = (0..count).map(|_| step()).collect();
     (steps, run.interface().x_tilde.clone())
@@ -111,8 +111,8 @@ fn channel(overrides: &[&str]) -> Resolved {
     read_in("".as_ref(), "scene.toml", CHANNEL, &overrides).expect("the scene is sound")
 }
 
-fn run_of(scene: &Resolved) -> Run {
-    build::run(scene).expect("the scene builds")
+fn run_of(scene: &Resolved) -> FieldMarch {
+    build::march(scene).expect("the scene builds")
 }
 
 const STOKES: &str = "fluid.convection=false";

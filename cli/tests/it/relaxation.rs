@@ -96,7 +96,7 @@ fn growth(omega: f64, radius: f64, time_scheme: &str, steps: usize) -> f64 {
         // So few that what grows slowly is not yet given up as diverging.
         "coupling.max_iterations=20",
     ]);
-    let mut run = build::run(&resolved).expect("the scene builds");
+    let mut run = build::march(&resolved).expect("the scene builds");
     for _ in 0..steps {
         run.step(resolved.scene.time.step.get(), &mut ()).expect("a step, converged or not");
     }

@@ -74,7 +74,7 @@ fn a_mesh_is_described_with_its_elements() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("plate.msh"), SQUARE).expect("a mesh");
     let resolved = read_in(folder.path(), "scene.toml", PLATE, &[]).expect("the scene is sound");
-    let page = check::describe(&resolved, &build::run(&resolved).expect("it can be built"));
+    let page = check::describe(&resolved, &build::march(&resolved).expect("it can be built"));
     assert!(page.contains("1 elements Quadrilateral4, 4 nodes, 4 unknowns"), "{page}");
 }
 
@@ -94,7 +94,7 @@ fn a_mesh_couples_like_the_patch_of_degree_one() {
     let patch = "[structure.geometry.rectangle]\norigin = [0.0, -0.05]\nsize = [1.0, 0.05]\nelements = [20, 1]\ndegree = [1, 1]";
     let middle = [tank("[structure.geometry.gmsh]\nfile = \"bottom.msh\""), tank(patch)].map(|scene| {
         let resolved = read_in(folder.path(), "scene.toml", &scene, &[]).expect("the scene is sound");
-        let mut run = build::run(&resolved).expect("it can be built");
+        let mut run = build::march(&resolved).expect("it can be built");
         for _ in 0..2 {
             run.step(resolved.scene.time.step.get(), &mut ()).expect("the step converges");
         }

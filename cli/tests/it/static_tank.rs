@@ -25,7 +25,7 @@ fn bottom_sags_under_the_weight_as_plate_theory_says() {
         "coupling.acceleration={constant={relaxation=1.0}}",
         "coupling.convergence={changes=1e-8}",
     ]);
-    let mut run = build::run(&resolved).expect("the scene builds");
+    let mut run = build::march(&resolved).expect("the scene builds");
     assert!(run.step(1.0, &mut ()).expect("a step").converged);
     let bottom = run.second().field().expect("the tank has a bottom");
     let stiffness = 2.8e12 * 0.01_f64.powi(3) / (12.0 * (1.0 - 0.3 * 0.3));

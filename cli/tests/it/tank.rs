@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use insta::assert_snapshot;
-use partita::build::{self, Run};
+use partita::build::{self, FieldMarch};
 use partita::output::{Clock, Ending};
 use partita::scene::{self, Resolved};
 use partita::session::{Options, RunError, Session};
@@ -24,7 +24,7 @@ fn limits(fluid: &str, structure: &str) -> [String; 2] {
 }
 
 /// Steps a run and returns its records.
-fn records(run: &mut Run, tank: &Resolved, steps: usize) -> Vec<Record> {
+fn records(run: &mut FieldMarch, tank: &Resolved, steps: usize) -> Vec<Record> {
     let mut records = Vec::new();
     for _ in 0..steps {
         run.step(tank.scene.time.step.get(), &mut records).expect("the step converges");
@@ -51,7 +51,7 @@ fn first_steps_of_the_tank_cost_what_they_did() {
     for (fluid, structure) in [("1", "1"), ("unlimited", "unlimited"), ("2", "3"), ("unlimited", "1")] {
         let [of_fluid, of_structure] = limits(fluid, structure);
         let tank = tank(&[&of_fluid, &of_structure]);
-        let records = records(&mut build::run(&tank).expect("the scene builds"), &tank, 5);
+        let records = records(&mut build::march(&tank).expect("the scene builds"), &tank, 5);
         let newton =
             |field: usize| iterations(&records).iter().map(|k| k.fields[field].newton).sum::<usize>();
         let coupling = iterations(&records).len();
@@ -70,7 +70,7 @@ fn first_steps_of_the_tank_cost_what_they_did() {
 fn no_call_exceeds_its_newton_limit_and_a_converged_structure_costs_nothing() {
     let [fluid, structure] = limits("1", "1");
     let tank = tank(&[&fluid, &structure]);
-    let records = records(&mut build::run(&tank).expect("the scene builds"), &tank, 5);
+    let records = records(&mut build::march(&tank).expect("the scene builds"), &tank, 5);
     let mut free_calls = 0;
     for iteration in iterations(&records) {
         let [fluid, structure] = &iteration.fields;
@@ -85,7 +85,7 @@ fn no_call_exceeds_its_newton_limit_and_a_converged_structure_costs_nothing() {
 #[test]
 fn virtual_work_is_kept_between_the_meshes() {
     let tank = tank(&[]);
-    let mut run = build::run(&tank).expect("the scene builds");
+    let mut run = build::march(&tank).expect("the scene builds");
     for iteration in iterations(&records(&mut run, &tank, 3)) {
         assert!(iteration.work_defect < 1e-13, "work defect {:e}", iteration.work_defect);
     }
@@ -102,7 +102,7 @@ fn gravity_rests_on_the_bottom_at_the_first_instant_of_a_stiff_tank() {
         "fluid.newton.tolerance={relative=1e-10}",
         "structure.newton.tolerance={relative=1e-8}",
     ]);
-    let mut run = build::run(&tank).expect("the scene builds");
+    let mut run = build::march(&tank).expect("the scene builds");
     records(&mut run, &tank, 1);
     let fluid = run.first().field().expect("the tank has a fluid");
     let [x, y] = fluid.force_on("bottom").expect("the tank has a bottom");
@@ -116,7 +116,7 @@ fn both_solvers_keep_the_contract_of_a_participant() {
         "structure.newton={tolerance={relative=1e-11}}",
         "fluid.tangent=full",
     ]);
-    let mut run = build::run(&tank).expect("the scene builds");
+    let mut run = build::march(&tank).expect("the scene builds");
     let step = Step { index: 1, time: 0.01, dt: 0.01 };
     let (fluid, structure) = run.participants_mut();
     let sag = |depth: f64| -> Vec<f64> {

@@ -1,7 +1,7 @@
 //! The work at the interface of a real run, as the fluid gives it and as the structure gets it.
 use partita_numerics::Field;
 
-use partita::build::{self, Run};
+use partita::build::{self, FieldMarch};
 use partita_coupling::Record;
 use partita_structure::StructureSolver;
 
@@ -15,16 +15,16 @@ fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
-fn structure(run: &Run) -> &StructureSolver<2> {
+fn structure(run: &FieldMarch) -> &StructureSolver<2> {
     run.second().field().expect("the tank has a bottom")
 }
 
-fn energy(run: &Run) -> f64 {
+fn energy(run: &FieldMarch) -> f64 {
     structure(run).kinetic_energy() + structure(run).strain_energy()
 }
 
 /// The tank with a bottom that keeps energy (radius 1, Hooke's law), coupled as tightly as round-off allows.
-fn tight(overrides: &[&str]) -> (Run, f64) {
+fn tight(overrides: &[&str]) -> (FieldMarch, f64) {
     let mut given = vec![
         "fluid.mesh.rectangle.divisions=[8,8]",
         "fluid.body_force=[0.0,-9.81]",
@@ -37,7 +37,7 @@ fn tight(overrides: &[&str]) -> (Run, f64) {
     ];
     given.extend(overrides);
     let resolved = tank(&given);
-    (build::run(&resolved).expect("the scene builds"), resolved.scene.time.step.get())
+    (build::march(&resolved).expect("the scene builds"), resolved.scene.time.step.get())
 }
 
 /// The fluid moves its boundary with F_{n+1}, the structure balances F at n+1-alpha_f. What the fluid gives beyond what
@@ -75,7 +75,7 @@ fn work_lost_at_the_interface_is_that_of_the_averaged_load() {
 }
 
 /// Entries of all control points at those of the interface.
-fn at_interface(run: &Run, all: &[f64]) -> Vec<f64> {
+fn at_interface(run: &FieldMarch, all: &[f64]) -> Vec<f64> {
     structure(run).interface_points().iter().flat_map(|point| [all[2 * point], all[2 * point + 1]]).collect()
 }
 

@@ -1,8 +1,11 @@
 //! Aitken's dynamic relaxation.
 
-use super::{Accelerator, AcceleratorState, Answer, DropReason, DroppedColumn, Proposal, check_omega};
+use super::{Accelerator, Answer, DropReason, DroppedColumn, Proposal, check_omega};
 use crate::setup::SetupError;
+use crate::state;
 use crate::vector::{add_scaled, dot, norm, subtract};
+
+const NAME: &str = "aitken";
 
 /// `x <- x + omega_k r^k` with `omega_k = -(dx . dr) / |dr|^2`, where `dx = x^k - x^{k-1}` and `dr = r^k - r^{k-1}` (Irons and
 /// Tuck 1969; Küttler and Wall 2008 write `omega_{k-1} r^{k-1}` for `dx`).
@@ -69,6 +72,10 @@ impl Aitken {
 }
 
 impl Accelerator for Aitken {
+    fn name(&self) -> &str {
+        NAME
+    }
+
     fn propose(&mut self, x: &mut [f64], r: &[f64], answer: Answer) -> Proposal {
         let secant = match (answer.answered, self.answered) {
             (true, true) => self.secant(x, r).map(Some),
@@ -98,15 +105,12 @@ impl Accelerator for Aitken {
         self.start_step();
     }
 
-    fn state(&self) -> AcceleratorState {
-        AcceleratorState::Aitken { omega: self.committed }
+    fn save(&self) -> Vec<u8> {
+        state::encode(&self.committed)
     }
 
-    fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError> {
-        let AcceleratorState::Aitken { omega } = state else {
-            return Err(SetupError::state("acceleration", "it is not that of Aitken's method"));
-        };
-        self.committed = *omega;
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
+        self.committed = state::decode(NAME, bytes)?;
         self.start_step();
         Ok(())
     }
@@ -147,7 +151,7 @@ mod tests {
         aitken.propose(&mut x, &[1.0], answer);
         aitken.propose(&mut x, &[0.5], answer);
         aitken.step_converged(&x, &[0.0], answer);
-        assert_eq!(aitken.state(), AcceleratorState::Aitken { omega: Some(1.0) });
+        assert_eq!(state::decode(NAME, &aitken.save()), Ok(Some(1.0)));
         assert_eq!(aitken.propose(&mut x, &[1.0], answer).omega, Some(0.5));
     }
 

@@ -1,8 +1,11 @@
 //! Relaxation by a constant factor.
 
-use super::{Accelerator, AcceleratorState, Answer, DroppedColumn, Proposal, check_omega};
+use super::{Accelerator, Answer, DroppedColumn, Proposal, check_omega};
 use crate::setup::SetupError;
+use crate::state;
 use crate::vector::add_scaled;
+
+const NAME: &str = "constant";
 
 /// `x <- x + omega r`.
 ///
@@ -25,6 +28,10 @@ impl Constant {
 }
 
 impl Accelerator for Constant {
+    fn name(&self) -> &str {
+        NAME
+    }
+
     fn propose(&mut self, x: &mut [f64], r: &[f64], _: Answer) -> Proposal {
         add_scaled(self.omega, r, x);
         Proposal::relaxation(self.omega)
@@ -36,14 +43,11 @@ impl Accelerator for Constant {
 
     fn step_failed(&mut self) {}
 
-    fn state(&self) -> AcceleratorState {
-        AcceleratorState::Constant
+    fn save(&self) -> Vec<u8> {
+        Vec::new()
     }
 
-    fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError> {
-        if *state == AcceleratorState::Constant {
-            return Ok(());
-        }
-        Err(SetupError::state("acceleration", "it is not that of a constant relaxation"))
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
+        state::expect_none(NAME, bytes)
     }
 }

@@ -2,8 +2,11 @@
 
 use super::column::Columns;
 use super::history::Secants;
-use super::{Accelerator, AcceleratorState, Answer, DroppedColumn, Proposal, QuasiNewton, relax};
+use super::{Accelerator, Answer, DroppedColumn, Proposal, QuasiNewton, relax, wrong_size};
 use crate::setup::SetupError;
+use crate::state;
+
+const NAME: &str = "iqn_ils";
 
 /// IQN-ILS (Degroote, Bathe, Vierendeels 2009): `c = argmin |V c + r|`, `x <- x_tilde + W c`.
 ///
@@ -42,6 +45,10 @@ impl IqnIls {
 }
 
 impl Accelerator for IqnIls {
+    fn name(&self) -> &str {
+        NAME
+    }
+
     fn propose(&mut self, x: &mut [f64], r: &[f64], answer: Answer) -> Proposal {
         let first = self.secants.at_first_iteration();
         self.apply_initial_jacobian(r);
@@ -53,7 +60,7 @@ impl Accelerator for IqnIls {
         if !self.secants.waits() {
             self.secants.update(x, r, &self.b);
         }
-        Proposal { omega: None, columns: self.secants.len(), dropped }
+        Proposal { columns: self.secants.len(), dropped, ..Proposal::default() }
     }
 
     fn step_converged(&mut self, x: &[f64], r: &[f64], answer: Answer) -> Vec<DroppedColumn> {
@@ -72,19 +79,17 @@ impl Accelerator for IqnIls {
         self.secants.start_step(self.committed.clone());
     }
 
-    fn state(&self) -> AcceleratorState {
-        AcceleratorState::IqnIls { columns: self.committed.clone() }
+    fn save(&self) -> Vec<u8> {
+        state::encode(&self.committed)
     }
 
-    fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError> {
-        let AcceleratorState::IqnIls { columns } = state else {
-            return Err(SetupError::state("acceleration", "it is not that of IQN-ILS"));
-        };
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
+        let columns: Columns = state::decode(NAME, bytes)?;
         if !columns.fit(self.size) {
-            return Err(SetupError::state("acceleration", format!("it is not for {} unknowns", self.size)));
+            return Err(wrong_size(NAME, self.size));
         }
-        self.committed.clone_from(columns);
-        self.secants.start_step(columns.clone());
+        self.committed.clone_from(&columns);
+        self.secants.start_step(columns);
         Ok(())
     }
 }

@@ -6,9 +6,12 @@ use serde::{Deserialize, Serialize};
 
 use super::column::Columns;
 use super::history::Secants;
-use super::{Accelerator, AcceleratorState, Answer, DroppedColumn, Proposal, QuasiNewton, relax};
+use super::{Accelerator, Answer, DroppedColumn, Proposal, QuasiNewton, relax, wrong_size};
 use crate::setup::SetupError;
+use crate::state;
 use crate::vector::{add_scaled, dot};
+
+const NAME: &str = "iqn_imvls";
 
 /// What one finished step adds to the Jacobian: `J <- J + (W - J V) V^+` with `V^+ = R^{-1} Q^T`.
 ///
@@ -99,6 +102,10 @@ impl IqnImvls {
 }
 
 impl Accelerator for IqnImvls {
+    fn name(&self) -> &str {
+        NAME
+    }
+
     fn propose(&mut self, x: &mut [f64], r: &[f64], answer: Answer) -> Proposal {
         let first = self.secants.at_first_iteration();
         self.apply_previous_jacobian(r);
@@ -112,7 +119,7 @@ impl Accelerator for IqnImvls {
             self.secants.update(x, r, &self.b);
         }
         let past: usize = self.past.iter().map(|step| step.q.len()).sum();
-        Proposal { omega: None, columns: self.secants.len() + past, dropped }
+        Proposal { columns: self.secants.len() + past, dropped, ..Proposal::default() }
     }
 
     fn step_converged(&mut self, x: &[f64], r: &[f64], answer: Answer) -> Vec<DroppedColumn> {
@@ -135,18 +142,16 @@ impl Accelerator for IqnImvls {
         self.secants.start_step(Columns::new());
     }
 
-    fn state(&self) -> AcceleratorState {
-        AcceleratorState::IqnImvls { steps: self.past.clone() }
+    fn save(&self) -> Vec<u8> {
+        state::encode(&self.past)
     }
 
-    fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError> {
-        let AcceleratorState::IqnImvls { steps } = state else {
-            return Err(SetupError::state("acceleration", "it is not that of IQN-IMVLS"));
-        };
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
+        let steps: VecDeque<StepInverse> = state::decode(NAME, bytes)?;
         if !steps.iter().all(|step| step.fits(self.size)) {
-            return Err(SetupError::state("acceleration", format!("it is not for {} unknowns", self.size)));
+            return Err(wrong_size(NAME, self.size));
         }
-        self.past.clone_from(steps);
+        self.past = steps;
         self.secants.start_step(Columns::new());
         Ok(())
     }

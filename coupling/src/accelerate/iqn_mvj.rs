@@ -4,9 +4,12 @@ use std::collections::VecDeque;
 
 use super::column::Columns;
 use super::history::Secants;
-use super::{Accelerator, AcceleratorState, Answer, DroppedColumn, Proposal, QuasiNewton, relax};
+use super::{Accelerator, Answer, DroppedColumn, Proposal, QuasiNewton, relax, wrong_size};
 use crate::setup::SetupError;
+use crate::state;
 use crate::vector::dot;
+
+const NAME: &str = "iqn_mvj";
 
 /// IQN-MVJ (Lindner, Mehl, Scheufele, Uekermann 2015): `J = J_prev + (W - J_prev V) V^+`, `x <- x_tilde - J r`.
 ///
@@ -106,6 +109,10 @@ fn update(jacobian: &mut Vec<f64>, unseen: f64, secants: &Secants, size: usize) 
 }
 
 impl Accelerator for IqnMvj {
+    fn name(&self) -> &str {
+        NAME
+    }
+
     fn propose(&mut self, x: &mut [f64], r: &[f64], answer: Answer) -> Proposal {
         let first = self.secants.at_first_iteration();
         self.apply_previous_jacobian(r);
@@ -118,7 +125,7 @@ impl Accelerator for IqnMvj {
         if !self.secants.waits() {
             self.secants.update(x, r, &self.b);
         }
-        Proposal { omega: None, columns: self.secants.len(), dropped }
+        Proposal { columns: self.secants.len(), dropped, ..Proposal::default() }
     }
 
     fn step_converged(&mut self, x: &[f64], r: &[f64], answer: Answer) -> Vec<DroppedColumn> {
@@ -138,20 +145,17 @@ impl Accelerator for IqnMvj {
         self.secants.start_step(Columns::new());
     }
 
-    fn state(&self) -> AcceleratorState {
-        AcceleratorState::IqnMvj { jacobian: self.jacobian.clone(), past: self.past.clone() }
+    fn save(&self) -> Vec<u8> {
+        state::encode(&(&self.jacobian, &self.past))
     }
 
-    fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError> {
-        let AcceleratorState::IqnMvj { jacobian, past } = state else {
-            return Err(SetupError::state("acceleration", "it is not that of IQN-MVJ"));
-        };
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
+        let (jacobian, past): (Vec<f64>, VecDeque<Columns>) = state::decode(NAME, bytes)?;
         let square = jacobian.is_empty() || jacobian.len() == self.size * self.size;
         if !square || !past.iter().all(|columns| columns.fit(self.size)) {
-            return Err(SetupError::state("acceleration", format!("it is not for {} unknowns", self.size)));
+            return Err(wrong_size(NAME, self.size));
         }
-        self.jacobian.clone_from(jacobian);
-        self.past.clone_from(past);
+        (self.jacobian, self.past) = (jacobian, past);
         self.secants.start_step(Columns::new());
         Ok(())
     }

@@ -117,10 +117,10 @@ fn forgets_a_failed_step(
     accelerator: &mut dyn Accelerator,
     step: u32,
 ) -> Result<(), Violation> {
-    let before = accelerator.state();
+    let before = accelerator.save();
     let (_, _, first) = problem.iterate(accelerator, step, 6);
     accelerator.step_failed();
-    expect(name, accelerator.state() == before, || {
+    expect(name, accelerator.save() == before, || {
         format!("a failed attempt at step {step} changes the state")
     })?;
     let (_, _, second) = problem.iterate(accelerator, step, 6);
@@ -135,7 +135,7 @@ fn continues_from_its_state(
     twin: &mut dyn Accelerator,
     step: u32,
 ) -> Result<(), Violation> {
-    let restored = twin.restore(&accelerator.state());
+    let restored = twin.restore(&accelerator.save());
     expect(name, restored.is_ok(), || format!("it refuses its own state before step {step}: {restored:?}"))?;
     let (_, _, original) = problem.iterate(accelerator, step, MAX_ITERATIONS);
     accelerator.step_failed();

@@ -17,7 +17,7 @@ pub struct ParticipantCheck {
     pub tolerance: f64,
 }
 
-/// Checks blocks, Newton limits, efforts, independence of the call history, and rewind.
+/// Checks blocks, Newton limits, efforts, independence of the call history, rewind, and the saved state.
 ///
 /// The participant has one step more committed when the check passes.
 ///
@@ -78,6 +78,25 @@ pub fn check_participant(
     bench.rewind_and_begin(&next)?;
     let (again, _) = bench.advance(a, NewtonLimit::ToConvergence)?;
     bench.expect_same("after commit and rewind", &again, &output)?;
+    bench.participant.rewind();
+
+    // A saved state brings back everything that the next step depends on, whatever happened in between.
+    let saved = bench.participant.save();
+    let later = Step { index: next.index + 1, time: next.time + next.dt, dt: next.dt };
+    bench.begin(&next)?;
+    bench.advance(b, NewtonLimit::ToConvergence)?;
+    bench.participant.commit();
+    bench.begin(&later)?;
+    bench.advance(b, NewtonLimit::AtMost(1))?;
+    bench.participant.rewind();
+    let restored = bench.participant.restore(&saved);
+    bench.expect(restored.is_ok(), || format!("it refuses its own state: {restored:?}"))?;
+    bench.expect(bench.participant.save() == saved, || {
+        "the restored state is saved as another one".to_owned()
+    })?;
+    bench.begin(&next)?;
+    let (again, _) = bench.advance(a, NewtonLimit::ToConvergence)?;
+    bench.expect_same("after a restart", &again, &output)?;
     bench.participant.rewind();
     Ok(())
 }

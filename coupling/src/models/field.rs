@@ -6,6 +6,8 @@ use serde::de::DeserializeOwned;
 use crate::participant::ParticipantError;
 use crate::participant::{Change, Effort, NewtonLimit, Participant, Step};
 use crate::port::Block;
+use crate::setup::SetupError;
+use crate::state;
 use crate::vector::{norm, ratio, subtract};
 
 /// A small field with a Newton method. `self` holds settings and workspace; the states are kept outside.
@@ -56,25 +58,31 @@ pub struct Model<F: Field> {
     bound: f64,
     /// Output of the last call or the last Newton iteration.
     last_output: Vec<f64>,
+    /// The same at the end of the last accepted step.
+    committed_output: Vec<f64>,
 }
 
 impl<F: Field> Model<F> {
     pub(super) fn new(field: F, start: F::State, input: Block, output: Block, bound: f64) -> Self {
         let last_output = vec![0.0; output.len()];
         let (input, output) = ([input], [output]);
-        Self { field, committed: start.clone(), trial: start, input, output, bound, last_output }
+        let committed_output = last_output.clone();
+        Self {
+            field,
+            committed: start.clone(),
+            trial: start,
+            input,
+            output,
+            bound,
+            last_output,
+            committed_output,
+        }
     }
 
     /// The solution of the last accepted step.
     #[must_use]
     pub fn state(&self) -> &F::State {
         &self.committed
-    }
-
-    /// Continues from a saved solution.
-    pub fn restore(&mut self, state: F::State) {
-        self.trial.clone_from(&state);
-        self.committed = state;
     }
 
     fn error(&self, message: impl Into<String>) -> ParticipantError {
@@ -177,10 +185,32 @@ impl<F: Field> Participant for Model<F> {
     fn commit(&mut self) {
         self.field.finish_step(&self.committed, &mut self.trial);
         self.committed.clone_from(&self.trial);
+        self.committed_output.copy_from_slice(&self.last_output);
     }
 
     fn rewind(&mut self) {
         self.trial.clone_from(&self.committed);
+        self.last_output.copy_from_slice(&self.committed_output);
+    }
+
+    fn save(&self) -> Vec<u8> {
+        state::encode(&(&self.committed, &self.committed_output))
+    }
+
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
+        let (committed, last_output): (F::State, Vec<f64>) = state::decode(self.field.name(), bytes)?;
+        let (saved, here) = (last_output.len(), self.last_output.len());
+        if saved != here {
+            return Err(SetupError::state(
+                self.field.name(),
+                format!("{saved} values at the interface, not {here}"),
+            ));
+        }
+        self.trial.clone_from(&committed);
+        self.committed = committed;
+        self.committed_output.clone_from(&last_output);
+        self.last_output = last_output;
+        Ok(())
     }
 }
 

@@ -1,14 +1,14 @@
 //! The shipped checks on the models, and on things that break their contracts.
 
-use partita_coupling::conformance::{ParticipantCheck, check_accelerator, check_participant, check_policy};
+use partita_coupling::conformance::{ParticipantCheck, check_accelerator, check_participant};
 use partita_coupling::models::tank::Tank;
 use partita_coupling::models::tube::Tube;
 use partita_coupling::{
-    Accelerator, AcceleratorState, Answer, DroppedColumn, Effort, NewtonLimit, ParticipantError, Policy,
-    Proposal, SetupError, Step,
+    Accelerator, Answer, Block, DroppedColumn, Effort, NewtonLimit, Participant, ParticipantError, Proposal,
+    SetupError, Step,
 };
 
-use crate::support::{Spoiled, all_accelerations, fixed, imvls};
+use crate::support::{Spoiled, all_accelerations, imvls};
 
 const STEP: Step = Step { index: 1, time: 1e-3, dt: 1e-3 };
 
@@ -40,16 +40,6 @@ fn accelerators_are_conforming() {
             check_accelerator(name, size, &|| acceleration.build(size).unwrap()).unwrap();
         }
     }
-}
-
-#[test]
-fn policies_are_conforming() {
-    for limit in [NewtonLimit::AtMost(1), NewtonLimit::ToConvergence] {
-        check_policy(&mut fixed(limit)).unwrap();
-    }
-    check_policy(&mut Policy::UntilCoupled { at_most: 3, tolerance: 1e-5 }).unwrap();
-    check_policy(&mut Policy::ConvergedInterfaceData { tolerance: 1e-4 }).unwrap();
-    assert!(check_policy(&mut fixed(NewtonLimit::AtMost(0))).is_err());
 }
 
 /// The wall, with every call spoiled by `fault`, must not pass.
@@ -84,6 +74,45 @@ fn rewind_that_leaves_a_trace_is_noticed() {
         output[0] *= 1.0 + 1e-14 * call as f64;
         Ok(())
     });
+}
+
+/// A wall that remembers less than it needs.
+struct Forgetful<P>(P);
+
+impl<P: Participant> Participant for Forgetful<P> {
+    fn name(&self) -> &str {
+        self.0.name()
+    }
+    fn input(&self) -> &[Block] {
+        self.0.input()
+    }
+    fn output(&self) -> &[Block] {
+        self.0.output()
+    }
+    fn begin_step(&mut self, step: &Step) -> Result<(), ParticipantError> {
+        self.0.begin_step(step)
+    }
+    fn advance(
+        &mut self,
+        input: &[f64],
+        limit: NewtonLimit,
+        output: &mut [f64],
+    ) -> Result<Effort, ParticipantError> {
+        self.0.advance(input, limit, output)
+    }
+    fn commit(&mut self) {
+        self.0.commit();
+    }
+    fn rewind(&mut self) {
+        self.0.rewind();
+    }
+}
+
+#[test]
+fn a_participant_that_saves_too_little_is_noticed() {
+    let (_, wall) = Tube::default().participants().unwrap();
+    let violation = check_participant(&mut Forgetful(wall), &check(40, 1e-2)).unwrap_err();
+    assert!(violation.to_string().contains("after a restart"), "{violation}");
 }
 
 #[test]
@@ -128,11 +157,14 @@ impl Accelerator for Faulty {
             self.inner.step_failed();
         }
     }
-    fn state(&self) -> AcceleratorState {
-        if self.poor_state { imvls().build(6).unwrap().state() } else { self.inner.state() }
+    fn name(&self) -> &str {
+        "faulty"
     }
-    fn restore(&mut self, state: &AcceleratorState) -> Result<(), SetupError> {
-        self.inner.restore(state)
+    fn save(&self) -> Vec<u8> {
+        if self.poor_state { imvls().build(6).unwrap().save() } else { self.inner.save() }
+    }
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
+        self.inner.restore(bytes)
     }
 }
 

@@ -1,8 +1,12 @@
 //! Identities between the quasi-Newton methods.
 
+use std::collections::VecDeque;
+
 use nalgebra::{DMatrix, DVector};
-use partita_coupling::accelerate::{Answer, DropReason, DroppedColumn, Filter, QuasiNewton};
-use partita_coupling::{Acceleration, Accelerator, AcceleratorState, Proposal, SetupError};
+use partita_coupling::accelerate::{
+    Answer, Columns, DropReason, DroppedColumn, Filter, QuasiNewton, StepInverse,
+};
+use partita_coupling::{Acceleration, Accelerator, Proposal, SetupError, state};
 
 /// Unfiltered, with every step kept.
 const PLAIN: QuasiNewton = QuasiNewton {
@@ -195,10 +199,16 @@ impl Accelerator for Textbook {
     fn step_failed(&mut self) {
         (self.v, self.w, self.last) = (Vec::new(), Vec::new(), None);
     }
-    fn state(&self) -> AcceleratorState {
-        AcceleratorState::Constant
+    fn name(&self) -> &str {
+        "textbook"
     }
-    fn restore(&mut self, _: &AcceleratorState) -> Result<(), SetupError> {
+    fn save(&self) -> Vec<u8> {
+        state::encode(self.jacobian.as_slice())
+    }
+    fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
+        let size = self.jacobian.nrows();
+        let entries: Vec<f64> = state::decode(self.name(), bytes)?;
+        self.jacobian = DMatrix::from_vec(size, size, entries);
         Ok(())
     }
 }
@@ -282,20 +292,20 @@ fn last_differences_of_a_step_are_kept_or_dropped_as_asked() {
             }
             let r = map.residual(&x, 1);
             accelerator.step_converged(&x, &r, Answer::default());
-            let state = serde_json::to_value(accelerator.state()).unwrap();
+            let bytes = accelerator.save();
             let kept = match method {
-                Acceleration::IqnIls(_) => state["iqn_ils"]["columns"]["all"].as_array().unwrap().len(),
-                Acceleration::IqnImvls(_) => state["iqn_imvls"]["steps"][0]["q"].as_array().unwrap().len(),
-                _ => rank(&state["iqn_mvj"]["jacobian"], n),
+                Acceleration::IqnIls(_) => state::decode::<Columns>("", &bytes).unwrap().all.len(),
+                Acceleration::IqnImvls(_) => {
+                    state::decode::<VecDeque<StepInverse>>("", &bytes).unwrap()[0].q.len()
+                }
+                _ => {
+                    let (jacobian, _): (Vec<f64>, VecDeque<Columns>) = state::decode("", &bytes).unwrap();
+                    DMatrix::from_row_slice(n, n, &jacobian).rank(1e-10)
+                }
             };
             assert_eq!(kept, expected, "{method:?}");
         }
     }
-}
-
-fn rank(jacobian: &serde_json::Value, n: usize) -> usize {
-    let entries: Vec<f64> = serde_json::from_value(jacobian.clone()).unwrap();
-    DMatrix::from_row_slice(n, n, &entries).rank(1e-10)
 }
 
 #[test]

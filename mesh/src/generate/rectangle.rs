@@ -32,6 +32,13 @@ pub struct RectangleMesh {
     pub pattern: Diagonal,
 }
 
+impl Default for RectangleMesh {
+    /// The unit square, ten squares along each side.
+    fn default() -> Self {
+        Self { origin: [0.0; 2], size: [1.0; 2], divisions: [10; 2], pattern: Diagonal::default() }
+    }
+}
+
 /// Meshes a rectangle; boundary groups `left`, `right`, `bottom`, `top`.
 ///
 /// Grid nodes come first, x fastest; the centre nodes of [`Diagonal::Crossed`] follow, square by square.

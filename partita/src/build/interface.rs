@@ -32,7 +32,7 @@ pub(crate) fn chosen(asked: schema::Transfer, coarsest: Option<&Coarsest>) -> sc
 /// the rest is for rational and unevenly stretched ones.
 const MORE_POINTS: usize = 3;
 
-/// The transfer `d_f = H x`, `F = H^T f`, with the rows of the fluid's interface nodes that the scene asks for: interpolation
+/// The transfer `d_f = H x`, `F = H^T f`, with the rows of the fluid's interface nodes of a method: interpolation
 /// `R_a(xi_i)`, or [`mortar`](partita_coupling::transfer::mortar).
 ///
 /// Columns of nodes that do not move at all are left out: their displacement is zero, and what the fluid puts on them goes
@@ -40,18 +40,19 @@ const MORE_POINTS: usize = 3;
 /// column; the component that is held stays zero, and its force goes into the support.
 ///
 /// # Errors
-/// When a fluid node lies farther from the wetted sides than the scene's tolerance times the interface's extent.
+/// When a fluid node lies farther from the wetted sides than `tolerance` times the interface's extent.
 pub(crate) fn transfer(
     fluid: &FluidSolver<2>,
     structure: &StructureSolver<2>,
-    coupling: &schema::Coupling,
+    method: schema::Transfer,
+    tolerance: f64,
 ) -> Result<Box<dyn Transfer>, BuildError> {
     let points: Vec<[f64; 2]> =
         fluid.interface_nodes().iter().map(|&node| fluid.mesh().points()[node]).collect();
-    let tolerance = coupling.projection_tolerance.get() * extent(&points);
+    let tolerance = tolerance * extent(&points);
     let nodal = rows(structure.interface_rows(&points, tolerance)?);
     let count = points.len();
-    let rows = match chosen(coupling.transfer, coarsest(fluid, structure).as_ref()) {
+    let rows = match chosen(method, coarsest(fluid, structure).as_ref()) {
         schema::Transfer::Interpolation => nodal,
         _ => mortar(points, facets(fluid), nodal, structure, tolerance)?,
     };

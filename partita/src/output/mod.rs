@@ -3,6 +3,7 @@
 //! | file | content |
 //! |---|---|
 //! | `scene.toml` | the scene with every default written out; it runs again as it is |
+//! | `run.json` | in its place, the settings of a run that a program built without a scene |
 //! | `input/` | the files that the scene names, as they were read |
 //! | `run.jsonl` | the record: a line for each coupling iteration, each step, and each step that failed and was repeated |
 //! | `steps.csv` | convergence and counts of each step, for plots |
@@ -49,7 +50,7 @@ use partita_scene::{INPUT_FOLDER, Input};
 use record::{Line, ProbeRow};
 
 pub use error::OutputError;
-pub use summary::{Clock, Ending, Seconds, Spent, Summary, Totals, Work};
+pub use summary::{Clock, Ending, OtherField, Seconds, Spent, Summary, Totals, Work};
 
 /// The resolved scene.
 pub const SCENE: &str = "scene.toml";
@@ -61,8 +62,19 @@ pub const STEPS: &str = "steps.csv";
 const EARLIER: &str = "iterations.csv";
 /// Probed values as a table.
 pub const PROBES: &str = "probes.csv";
+/// What is run, where no scene says so.
+pub const DESCRIPTION: &str = "run.json";
 /// Counts and times of the whole run.
 pub const SUMMARY: &str = "summary.json";
+
+/// What the columns of a run's tables are called after.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Columns {
+    /// The two fields.
+    pub(crate) fields: [String; 2],
+    /// All columns of all probes.
+    pub(crate) probes: Vec<String>,
+}
 
 /// Writes the output folder of a run.
 ///
@@ -102,6 +114,17 @@ impl RunWriter {
     /// # Errors
     /// [`OutputError::Occupied`] when the folder is not empty (see [`remove_run`]), or what the system refuses.
     pub fn create(dir: &Path, scene: &str, probes: &[String], clock: Clock) -> Result<Self, OutputError> {
+        let columns = Columns { fields: record::scene_fields(), probes: probes.to_vec() };
+        Self::create_with(dir, (SCENE, scene), &columns, clock)
+    }
+
+    /// Starts the folder `dir` of a new run with fields of any name: the file that says what is run has this name and text.
+    pub(crate) fn create_with(
+        dir: &Path,
+        (name, text): (&str, &str),
+        columns: &Columns,
+        clock: Clock,
+    ) -> Result<Self, OutputError> {
         let refused = |source| OutputError::Write { path: dir.to_owned(), source };
         fs::create_dir_all(dir).map_err(refused)?;
         if fs::read_dir(dir).map_err(refused)?.next().is_some() {
@@ -109,14 +132,14 @@ impl RunWriter {
         }
         // First: it marks the folder as a run's, which --force may replace.
         let records = LineFile::create(dir.join(RECORDS))?;
-        let path = dir.join(SCENE);
-        fs::write(&path, scene).map_err(|source| OutputError::Write { path, source })?;
+        let path = dir.join(name);
+        fs::write(&path, text).map_err(|source| OutputError::Write { path, source })?;
         Ok(Self {
             dir: dir.to_owned(),
             records,
-            steps: CsvFile::create(dir.join(STEPS), record::step_columns())?,
-            probes: CsvFile::create(dir.join(PROBES), record::probe_columns(probes))?,
-            probe_count: probes.len(),
+            steps: CsvFile::create(dir.join(STEPS), record::step_columns(&columns.fields))?,
+            probes: CsvFile::create(dir.join(PROBES), record::probe_columns(&columns.probes))?,
+            probe_count: columns.probes.len(),
             fields: FieldFiles::create(dir)?,
             totals: Totals::default(),
             clock,
@@ -135,16 +158,24 @@ impl RunWriter {
     ///
     /// # Errors
     /// When a file is missing, lacks steps, or is not what a run with these `probes` writes.
-    pub fn resume(
+    pub fn resume(dir: &Path, stamp: &Stamp, probes: &[String], clock: Clock) -> Result<Self, OutputError> {
+        let columns = Columns { fields: record::scene_fields(), probes: probes.to_vec() };
+        Self::resume_with(dir, stamp, &columns, clock)
+    }
+
+    /// The same of a run with fields of any name.
+    pub(crate) fn resume_with(
         dir: &Path,
         stamp: &Stamp,
-        probes: &[String],
+        columns: &Columns,
         mut clock: Clock,
     ) -> Result<Self, OutputError> {
         let step = stamp.step;
         let (records, totals) = resume_records(dir.join(RECORDS), step)?;
-        let (steps, step_rows) = CsvFile::resume(dir.join(STEPS), record::step_columns(), step)?;
-        let (probe_file, _) = CsvFile::resume(dir.join(PROBES), record::probe_columns(probes), step)?;
+        let (steps, step_rows) =
+            CsvFile::resume(dir.join(STEPS), record::step_columns(&columns.fields), step)?;
+        let (probe_file, _) =
+            CsvFile::resume(dir.join(PROBES), record::probe_columns(&columns.probes), step)?;
         let complete = [(&records, totals.steps == step), (steps.file(), step_rows == step)];
         if let Some((file, _)) = complete.iter().find(|(_, complete)| !complete) {
             return Err(OutputError::Cut { path: file.path().to_owned(), step });
@@ -157,7 +188,7 @@ impl RunWriter {
             records,
             steps,
             probes: probe_file,
-            probe_count: probes.len(),
+            probe_count: columns.probes.len(),
             fields: FieldFiles::resume(dir, stamp.time)?,
             totals,
             clock,
@@ -254,7 +285,7 @@ impl RunWriter {
     ///
     /// # Errors
     /// What the system refuses.
-    pub fn finish(self, ending: Ending) -> Result<Summary, OutputError> {
+    pub fn finish(&mut self, ending: Ending) -> Result<Summary, OutputError> {
         self.write_summary(Summary::new(ending, &self.totals, &self.clock.spent()))
     }
 
@@ -262,7 +293,7 @@ impl RunWriter {
     ///
     /// # Errors
     /// What the system refuses.
-    pub fn fail(self, cause: String) -> Result<Summary, OutputError> {
+    pub fn fail(&mut self, cause: String) -> Result<Summary, OutputError> {
         self.write_summary(Summary::failed(&self.totals, &self.clock.spent(), cause))
     }
 
@@ -311,7 +342,7 @@ pub fn remove_run(dir: &Path) -> Result<(), OutputError> {
     let Ok(file) = fs::File::open(&records) else { return Ok(()) };
     let _lock = lines::lock(file, &records)?;
     let collections = Series::ALL.map(Series::collection);
-    let files = [SCENE, STEPS, EARLIER, PROBES, SUMMARY].into_iter().chain(checkpoint::FILES);
+    let files = [SCENE, DESCRIPTION, STEPS, EARLIER, PROBES, SUMMARY].into_iter().chain(checkpoint::FILES);
     let ours: Vec<&str> = files.chain(collections.iter().map(String::as_str)).collect();
     let known = |name: &str| {
         let name = name.strip_suffix(".part").unwrap_or(name);

@@ -13,8 +13,13 @@ use serde::Serialize;
 use super::csv::Column;
 use super::table::Cell;
 
-/// The fields, in the order of their columns.
-const FIELDS: [&str; 2] = ["fluid", "structure"];
+/// Names of the two fields, in the order of their columns.
+pub(super) type FieldNames = [String; 2];
+
+/// The names that the fields of a scene have.
+pub(super) fn scene_fields() -> FieldNames {
+    ["fluid", "structure"].map(str::to_owned)
+}
 
 /// A line of `run.jsonl`, to be read back as a [`partita_coupling::Record`].
 #[derive(Serialize)]
@@ -56,7 +61,7 @@ pub(super) fn probe_columns(names: &[String]) -> Vec<Column<ProbeRow>> {
 ///
 /// `limit` is a number, `inf` (to convergence) or `settled` (until the output settles); `change` is the largest
 /// relative change of any part of the field's solution.
-pub(super) fn iteration_columns() -> Vec<Column<IterationRecord>> {
+pub(super) fn iteration_columns(fields: &FieldNames) -> Vec<Column<IterationRecord>> {
     type R = IterationRecord;
     let mut columns = vec![
         Column::new("step", |r: &R| r.step),
@@ -65,9 +70,10 @@ pub(super) fn iteration_columns() -> Vec<Column<IterationRecord>> {
         Column::new("relative_residual", |r: &R| r.relative_residual),
         Column::new("work_defect", |r: &R| r.work_defect),
     ];
-    for name in FIELDS {
+    for name in fields {
         let mut add = |quantity: &str, value: fn(&FieldRecord) -> Cell| {
-            let cell = move |r: &R| r.fields.iter().find(|field| field.name == name).map(value);
+            let wanted = name.clone();
+            let cell = move |r: &R| r.fields.iter().find(|field| field.name == wanted).map(value);
             columns.push(Column::new(format!("{name}_{quantity}"), cell));
         };
         add("limit", |field| limit(field.limit));
@@ -86,15 +92,15 @@ pub(super) fn iteration_columns() -> Vec<Column<IterationRecord>> {
             r.acceleration.as_ref().map(|proposal| proposal.dropped.len())
         }),
     ]);
-    columns.extend(seconds_columns());
-    columns.extend(detail_columns(|r: &R, name| {
+    columns.extend(seconds_columns(fields));
+    columns.extend(detail_columns(fields, |r: &R, name| {
         r.fields.iter().find(|field| field.name == name).map(|field| field.details)
     }));
     columns
 }
 
 /// Columns of `steps.csv`.
-pub(super) fn step_columns() -> Vec<Column<StepRecord>> {
+pub(super) fn step_columns(fields: &FieldNames) -> Vec<Column<StepRecord>> {
     type R = StepRecord;
     let mut columns = vec![
         Column::new("step", |r: &R| r.step),
@@ -105,9 +111,10 @@ pub(super) fn step_columns() -> Vec<Column<StepRecord>> {
         Column::new("residual", |r: &R| r.residual),
         Column::new("largest_change", |r: &R| r.largest_change),
     ];
-    for name in FIELDS {
+    for name in fields {
         let mut add = |quantity: &str, count: fn(&FieldTotals) -> usize| {
-            let cell = move |r: &R| r.fields.iter().find(|field| field.name == name).map(count);
+            let wanted = name.clone();
+            let cell = move |r: &R| r.fields.iter().find(|field| field.name == wanted).map(count);
             columns.push(Column::new(format!("{name}_{quantity}"), cell));
         };
         add("calls", |field| field.calls);
@@ -120,18 +127,21 @@ pub(super) fn step_columns() -> Vec<Column<StepRecord>> {
 }
 
 /// Columns of the table of all steps: those of `steps.csv`, then times and more of each field's work.
-pub(super) fn all_step_columns() -> Vec<Column<StepRecord>> {
-    let mut columns = step_columns();
+pub(super) fn all_step_columns(fields: &FieldNames) -> Vec<Column<StepRecord>> {
+    let mut columns = step_columns(fields);
     columns.push(Column::new("dropped_columns", |r: &StepRecord| r.dropped_columns));
-    columns.extend(seconds_columns());
-    columns.extend(detail_columns(|r: &StepRecord, name| {
+    columns.extend(seconds_columns(fields));
+    columns.extend(detail_columns(fields, |r: &StepRecord, name| {
         r.fields.iter().find(|field| field.name == name).map(|field| field.details)
     }));
     columns
 }
 
 /// The last columns of a table: more of each field's work.
-fn detail_columns<R: 'static>(details: fn(&R, &str) -> Option<WorkDetails>) -> Vec<Column<R>> {
+fn detail_columns<R: 'static>(
+    fields: &FieldNames,
+    details: fn(&R, &str) -> Option<WorkDetails>,
+) -> Vec<Column<R>> {
     type Count = fn(WorkDetails) -> usize;
     let counts: [(&str, Count); 4] = [
         ("tangents", |details| details.tangents),
@@ -139,13 +149,14 @@ fn detail_columns<R: 'static>(details: fn(&R, &str) -> Option<WorkDetails>) -> V
         ("mesh_factorizations", |details| details.mesh_factorizations),
         ("mesh_solves", |details| details.mesh_solves),
     ];
-    let of = |name: &'static str| {
-        let column = move |(quantity, count): (&str, Count)| {
-            Column::new(format!("{name}_{quantity}"), move |r: &R| details(r, name).map(count))
+    let of = |name: &String| {
+        let column = |(quantity, count): (&str, Count)| {
+            let wanted = name.clone();
+            Column::new(format!("{name}_{quantity}"), move |r: &R| details(r, &wanted).map(count))
         };
         counts.map(column)
     };
-    FIELDS.into_iter().flat_map(of).collect()
+    fields.iter().flat_map(of).collect()
 }
 
 fn limit(limit: NewtonLimit) -> Cell {
@@ -184,14 +195,16 @@ impl Timed for StepRecord {
 }
 
 /// Columns of times: whole calls, their phases, and what lies between the calls.
-fn seconds_columns<R: Timed + 'static>() -> Vec<Column<R>> {
+fn seconds_columns<R: Timed + 'static>(fields: &FieldNames) -> Vec<Column<R>> {
     let mut columns = Vec::new();
-    for name in FIELDS {
+    for name in fields {
+        let wanted = name.clone();
         columns.push(Column::new(format!("{name}_seconds"), move |r: &R| {
-            r.field_seconds(name).map(|seconds| seconds.total)
+            r.field_seconds(&wanted).map(|seconds| seconds.total)
         }));
         let mut add = |phase: &str, time: fn(&PhaseTimes) -> f64| {
-            let cell = move |r: &R| r.field_seconds(name).map(|seconds| time(&seconds.phases));
+            let wanted = name.clone();
+            let cell = move |r: &R| r.field_seconds(&wanted).map(|seconds| time(&seconds.phases));
             columns.push(Column::new(format!("{name}_{phase}_seconds"), cell));
         };
         add("assembly", |phases| phases.assembly);

@@ -23,7 +23,7 @@ pub enum Ending {
 }
 
 /// Counts and times over the finished steps of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Totals {
     /// Finished steps.
     pub steps: usize,
@@ -41,6 +41,8 @@ pub struct Totals {
     pub fluid: Work,
     /// Work of the structure.
     pub structure: Work,
+    /// Fields of other names.
+    pub others: Vec<OtherField>,
     /// Where the solvers' time went; `output` stays zero here.
     pub seconds: Seconds,
 }
@@ -55,19 +57,41 @@ impl Totals {
         self.coupling_iterations += step.iterations;
         self.newton_fluid += newton("fluid");
         self.newton_structure += newton("structure");
-        for field in &step.fields {
+        for (field, seconds) in step.fields.iter().zip(&step.seconds.fields) {
             match field.name.as_str() {
                 "fluid" => self.fluid.add(field),
                 "structure" => self.structure.add(field),
-                _ => {}
+                name => {
+                    let other = self.other(name);
+                    other.work.add(field);
+                    other.seconds += seconds.total - seconds.phases.mesh_motion;
+                }
             }
-        }
-        for (field, seconds) in step.fields.iter().zip(&step.seconds.fields) {
             self.seconds.add_field(&field.name, seconds);
         }
         self.seconds.transfer += step.seconds.transfer;
         self.seconds.acceleration += step.seconds.acceleration;
     }
+
+    /// The entry of a field of another name.
+    fn other(&mut self, name: &str) -> &mut OtherField {
+        let index = self.others.iter().position(|other| other.name == name).unwrap_or_else(|| {
+            self.others.push(OtherField { name: name.to_owned(), ..OtherField::default() });
+            self.others.len() - 1
+        });
+        &mut self.others[index]
+    }
+}
+
+/// What a field did that is neither called `fluid` nor `structure`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct OtherField {
+    /// Its name.
+    pub name: String,
+    /// Its work.
+    pub work: Work,
+    /// Its calls \[s\].
+    pub seconds: f64,
 }
 
 /// What one field did in the finished steps of a run.
@@ -244,6 +268,9 @@ pub struct Summary {
     pub fluid: Work,
     /// Work of the structure.
     pub structure: Work,
+    /// Fields of other names; left out where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub others: Vec<OtherField>,
     /// Largest resident memory \[bytes\], of the last session.
     pub max_resident_bytes: Option<u64>,
     /// Wall-clock time \[s\], all sessions.
@@ -270,6 +297,7 @@ impl Summary {
             newton_structure: totals.newton_structure,
             fluid: totals.fluid,
             structure: totals.structure,
+            others: totals.others.clone(),
             max_resident_bytes: max_resident_bytes(),
             wall_seconds: spent.wall_seconds,
             cpu_seconds: spent.cpu_seconds,
@@ -300,6 +328,9 @@ impl Summary {
         row("coupling iterations", Some(self.coupling_iterations), transfer + acceleration);
         row("Newton iterations, fluid", Some(self.newton_fluid), fluid);
         row("Newton iterations, structure", Some(self.newton_structure), structure);
+        for other in &self.others {
+            row(&format!("Newton iterations, {}", other.name), Some(other.work.newton), other.seconds);
+        }
         row("mesh motion", None, mesh_motion);
         row("output", None, output);
         table

@@ -34,16 +34,32 @@ pub enum TableError {
 /// # Errors
 /// When the records cannot be read, or `out` refuses.
 pub fn write(dir: &Path, rows: Rows, out: &mut impl Write) -> Result<(), TableError> {
+    let fields = fields(dir)?;
     match rows {
-        Rows::Iterations => each(dir, &record::iteration_columns(), out, |record| match record {
+        Rows::Iterations => each(dir, &record::iteration_columns(&fields), out, |record| match record {
             Record::Iteration(iteration) => Some(iteration),
             Record::Step(_) | Record::Retry(_) => None,
         }),
-        Rows::Steps => each(dir, &record::all_step_columns(), out, |record| match record {
+        Rows::Steps => each(dir, &record::all_step_columns(&fields), out, |record| match record {
             Record::Step(step) => Some(step),
             Record::Iteration(_) | Record::Retry(_) => None,
         }),
     }
+}
+
+/// The names of the fields, from the first record that has them.
+fn fields(dir: &Path) -> Result<record::FieldNames, TableError> {
+    let path = dir.join(RECORDS);
+    let file = File::open(&path).map_err(|source| OutputError::Read { path, source })?;
+    // What cannot be read is reported with its line when its row is made.
+    let records =
+        BufReader::new(file).lines().map_while(Result::ok).map_while(|line| serde_json::from_str(&line).ok());
+    let names = records.filter_map(|record: Record| match record {
+        Record::Iteration(record) => Some(record.fields.map(|field| field.name)),
+        Record::Step(record) => Some(record.fields.map(|field| field.name)),
+        Record::Retry(_) => None,
+    });
+    Ok(names.into_iter().next().unwrap_or_else(record::scene_fields))
 }
 
 fn each<R>(

@@ -31,7 +31,8 @@ pub(super) fn ratio(
     coupling: &Coupling,
     mode: &Mode,
 ) -> Option<f64> {
-    let transfer = build::transfer(fluid, structure, coupling).ok()?;
+    let transfer =
+        build::transfer(fluid, structure, coupling.transfer, coupling.projection_tolerance.get()).ok()?;
     let points = structure.interface_points();
     let shape: Vec<f64> = points.iter().flat_map(|point| [0, 1].map(|c| mode.shape[2 * point + c])).collect();
     let mut motion = vec![0.0; 2 * fluid.interface_nodes().len()];

@@ -3,7 +3,7 @@
 use partita_fluid::FluidSolver;
 use partita_mesh::{Mesh, quality};
 
-use crate::build::Run;
+use crate::build::FieldMarch;
 use partita_scene::Resolved;
 use partita_scene::formulas::times;
 use partita_scene::schema::{Condition, Fluid, Initial, VectorFormula};
@@ -22,7 +22,7 @@ pub(super) struct FlowScales {
 
 impl FlowScales {
     /// `None` for a scene without a fluid.
-    pub(super) fn of(resolved: &Resolved, run: &Run) -> Option<Self> {
+    pub(super) fn of(resolved: &Resolved, run: &FieldMarch) -> Option<Self> {
         let (scene, solver) = (resolved.scene.fluid.as_ref()?, run.first().field()?);
         let times = times(&resolved.scene.time);
         Some(Self::of_fluid(scene, solver, &times))

@@ -17,7 +17,7 @@ pub fn model(structure: &schema::Structure, space: &Space<2>) -> Result<Structur
     let (clamped, held) = supports(space, structure);
     Ok(StructureModel {
         density: structure.density.get(),
-        material: material(&structure.material)?,
+        material: material(&structure.material)?.into(),
         body_force: body_force(&structure.body_force),
         clamped,
         held,

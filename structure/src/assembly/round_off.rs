@@ -37,10 +37,16 @@ impl<const D: usize> Assembly<D> {
         let element = self.elements.element(e);
         let Local { field, force, sizes, .. } = local;
         sizes.fill(0.0);
-        kernel::add_rounding(element, &self.material, 1.0, field, sizes);
+        kernel::add_rounding(element, self.material.law(), 1.0, field, sizes);
         let mut density = if self.has_inertia { weights.mass * self.density } else { 0.0 };
         if let Some(Damping { rayleigh, linearized, .. }) = &self.damping {
-            kernel::add_rounding(element, linearized, weights.damping * rayleigh.stiffness, field, sizes);
+            kernel::add_rounding(
+                element,
+                linearized.law(),
+                weights.damping * rayleigh.stiffness,
+                field,
+                sizes,
+            );
             density += weights.damping * rayleigh.mass * self.density;
         }
         field.as_flattened_mut().iter_mut().for_each(|d| *d = d.abs());

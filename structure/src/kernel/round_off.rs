@@ -1,7 +1,7 @@
 //! What the rounding of a displacement does to the internal forces.
 
 use super::{Element, Point};
-use crate::material::Material;
+use crate::material::Constitutive;
 use crate::tensor::{self, Tensor, dot};
 
 /// Adds to each node how much its internal force moves when every displacement is rounded, in units of the relative
@@ -18,14 +18,14 @@ use crate::tensor::{self, Tensor, dot};
 /// `displacement` `[m]` and `force` `[N, in 2D N/m]` hold one entry a node.
 pub fn add_rounding<const D: usize>(
     element: Element<D>,
-    material: &Material,
+    material: &dyn Constitutive<D>,
     factor: f64,
     displacement: &[[f64; D]],
     force: &mut [f64],
 ) {
     element.assert_fits(displacement);
     element.assert_fits(force);
-    let modulus = factor * material.wave_modulus();
+    let modulus = factor * material.modulus();
     for point in element.points() {
         let stretch = if material.is_linear() { 1.0 } else { point.stretch(displacement) };
         let stress = modulus * stretch * stretch * point.gradient_size(displacement);

@@ -28,7 +28,7 @@ pub(crate) fn neo_hookean(young_modulus: f64, poisson_ratio: f64) -> Material {
 pub(crate) fn bare<const D: usize>(material: Material) -> StructureModel<D> {
     StructureModel {
         density: 1.0,
-        material,
+        material: material.into(),
         body_force: BodyForce::NONE,
         clamped: Boundary::NONE,
         held: Vec::new(),

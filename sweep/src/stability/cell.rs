@@ -11,7 +11,7 @@ use partita_fluid::FluidSolver;
 use super::measure;
 use super::read::{Cell, Map};
 use super::row::{Outcome, Row};
-use partita::build::{self, Run};
+use partita::build::{self, FieldMarch};
 use partita_scene::Resolved;
 
 /// Runs a cell; nothing when `stop` was set before it came to its end.
@@ -33,7 +33,7 @@ fn attempt(map: &Map, cell: &Cell, stop: &AtomicBool) -> Option<Row> {
         Ok(resolved) => resolved,
         Err(error) => return refused(&error.to_string()),
     };
-    match build::run(&resolved) {
+    match build::march(&resolved) {
         Ok(run) => Course::new(run, &resolved).finish(map, stop),
         Err(error) => refused(&error.to_string()),
     }
@@ -41,7 +41,7 @@ fn attempt(map: &Map, cell: &Cell, stop: &AtomicBool) -> Option<Row> {
 
 /// A run in progress and what is known of it.
 struct Course<'a> {
-    run: Run,
+    run: FieldMarch,
     resolved: &'a Resolved,
     coupled: bool,
     counts: Counts,
@@ -50,7 +50,7 @@ struct Course<'a> {
 }
 
 impl<'a> Course<'a> {
-    fn new(run: Run, resolved: &'a Resolved) -> Self {
+    fn new(run: FieldMarch, resolved: &'a Resolved) -> Self {
         let row = Row::empty(Outcome::Converged, "", "");
         let coupled = resolved.scene.coupling.is_some();
         Self { run, resolved, coupled, counts: Counts::default(), energies: Vec::new(), row }

@@ -5,10 +5,10 @@ use partita_fluid::FluidSolver;
 use partita_mesh::Mesh;
 use partita_structure::StructureSolver;
 
-use partita::build::Run;
+use partita::build::FieldMarch;
 
 /// Kinetic energy of the fluid, kinetic and strain energy of the structure \[J, in 2D J/m\].
-pub(super) fn energy(run: &Run) -> f64 {
+pub(super) fn energy(run: &FieldMarch) -> f64 {
     let fluid = run.first().field().map_or(0.0, FluidSolver::kinetic_energy);
     let structure =
         run.second().field().map_or(0.0, |structure| structure.kinetic_energy() + structure.strain_energy());

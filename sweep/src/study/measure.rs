@@ -10,7 +10,7 @@ use partita_structure::StructureSolver;
 
 use super::error::MeasureError;
 use super::quantity::Series;
-use partita::build::{self, Run};
+use partita::build::{self, FieldMarch};
 use partita::output::Totals;
 use partita::probe::Probes;
 use partita_scene::Resolved;
@@ -51,7 +51,7 @@ pub(super) fn measure(
 fn once(setting: &Resolved, column: &str, stop: &AtomicBool) -> Result<Option<Measured>, MeasureError> {
     let scene = &setting.scene;
     let start = Stopwatch::start();
-    let mut run = build::run(setting)?;
+    let mut run = build::march(setting)?;
     let mut cpu_seconds = start.seconds();
     let probes = Probes::new(&scene.output.probes, &run);
     let index = probes.columns().iter().position(|name| name == column);
@@ -89,7 +89,7 @@ impl Observer for Retries {
     }
 }
 
-fn unknowns(run: &Run) -> usize {
+fn unknowns(run: &FieldMarch) -> usize {
     let of_fluid = |fluid: &FluidSolver<2>| fluid.parts().iter().map(|part| part.dofs.len()).sum();
     let of_structure = |solid: &StructureSolver<2>| solid.parts().iter().map(|part| part.dofs.len()).sum();
     run.first().field().map_or(0, of_fluid) + run.second().field().map_or(0, of_structure)

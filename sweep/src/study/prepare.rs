@@ -262,7 +262,7 @@ impl<'a> Reader<'a> {
         })?;
         self.column(&resolved)?;
         self.window(&resolved, place.clone())?;
-        build::run(&resolved).map_err(|error| {
+        build::march(&resolved).map_err(|error| {
             let text = error.to_string();
             let (what, hint) = text.split_once("\nhint: ").unwrap_or((&text, ""));
             self.source.error(what, place, "this setting cannot be built", hint)

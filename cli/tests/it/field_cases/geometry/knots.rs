@@ -110,7 +110,7 @@ fn mutated_splines_are_refused_or_run() {
         let scene = case.text("scene.toml");
         let outcome = std::panic::catch_unwind(|| {
             let resolved = partita::scene::read_in(folder, "scene.toml", &scene, &[]).ok()?;
-            let mut run = partita::build::run(&resolved).ok()?;
+            let mut run = partita::build::march(&resolved).ok()?;
             Some(run.step(0.01, &mut ()).is_ok())
         });
         let Ok(stepped) = outcome else { panic!("a panic for\n{mutated}") };

@@ -178,7 +178,7 @@ fn answer(scene: &Path, out: &Path) -> bool {
             return false;
         }
     };
-    let run = match build::run(&resolved) {
+    let run = match build::march(&resolved) {
         Ok(run) => run,
         Err(error) => {
             assert!(error.to_string().contains("\nhint: "), "{error}");

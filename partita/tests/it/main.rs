@@ -1,0 +1,4 @@
+//! Whole runs of the library.
+
+mod examples;
+mod run;

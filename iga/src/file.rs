@@ -77,6 +77,7 @@ pub fn to_toml<const D: usize>(spline: &Spline<D>) -> String {
 /// dimension than `D`, or one that [`Knots`](crate::Knots) or [`Spline`] refuses. The error knows its place in the text.
 ///
 /// ```
+/// use miette::Diagnostic;
 /// use partita_iga::file;
 ///
 /// let text = "\
@@ -89,10 +90,8 @@ pub fn to_toml<const D: usize>(spline: &Spline<D>) -> String {
 /// let error = file::from_toml::<2>(text).unwrap_err();
 /// assert_eq!(error.line(), 5);
 /// assert_eq!(&text[error.span()], "0.4");
-/// assert_eq!(
-///     error.to_string(),
-///     "line 5, knots[0]: knot 3 is 0.4, smaller than 0.5 before it\nhint: list the knots in ascending order"
-/// );
+/// assert_eq!(error.to_string(), "line 5, knots[0]: knot 3 is 0.4, smaller than 0.5 before it");
+/// assert_eq!(error.help().unwrap().to_string(), "list the knots in ascending order");
 /// ```
 pub fn from_toml<const D: usize>(text: &str) -> Result<Spline<D>, FileError> {
     read::spline(text)

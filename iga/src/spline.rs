@@ -228,18 +228,18 @@ fn differ(weights: &[f64]) -> bool {
 }
 
 /// What is wrong with the data of a spline.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum SplineError {
     /// More parameters than [`MAX_PARAMETERS`].
-    #[error("{found} parameters are too many\nhint: curves have 1, surfaces 2, volumes 3")]
+    #[error("{found} parameters are too many")]
+    #[diagnostic(help("curves have 1, surfaces 2, volumes 3"))]
     TooManyParameters {
         /// Number of knot vectors given.
         found: usize,
     },
     /// The number of control points does not fit the knots.
-    #[error(
-        "{found} control points do not fit {shape:?} basis functions\nhint: give {needed} control points"
-    )]
+    #[error("{found} control points do not fit {shape:?} basis functions")]
+    #[diagnostic(help("give {needed} control points"))]
     ControlPoints {
         /// Number of control points given.
         found: usize,
@@ -249,9 +249,8 @@ pub enum SplineError {
         shape: Vec<usize>,
     },
     /// The number of weights does not fit the control points.
-    #[error(
-        "{found} weights do not fit {needed} control points\nhint: give one weight for each control point"
-    )]
+    #[error("{found} weights do not fit {needed} control points")]
+    #[diagnostic(help("give one weight for each control point"))]
     Weights {
         /// Number of weights given.
         found: usize,
@@ -259,15 +258,15 @@ pub enum SplineError {
         needed: usize,
     },
     /// A coordinate is infinite or not a number.
-    #[error(
-        "control point {index} has a coordinate that is not finite\nhint: coordinates are finite numbers"
-    )]
+    #[error("control point {index} has a coordinate that is not finite")]
+    #[diagnostic(help("coordinates are finite numbers"))]
     NotFinite {
         /// Index of the control point.
         index: usize,
     },
     /// A weight is not a positive number.
-    #[error("the weight of control point {index} is {value}\nhint: weights are positive, finite numbers")]
+    #[error("the weight of control point {index} is {value}")]
+    #[diagnostic(help("weights are positive, finite numbers"))]
     Weight {
         /// Index of the control point.
         index: usize,

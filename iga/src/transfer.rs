@@ -150,16 +150,18 @@ fn row<const D: usize>(
 }
 
 /// Why points cannot be tied to a patch.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum TransferError {
     /// There is nothing to project to.
-    #[error("points cannot be projected to no side at all\nhint: name at least one side of the patch")]
+    #[error("points cannot be projected to no side at all")]
+    #[diagnostic(help("name at least one side of the patch"))]
     NoSides,
     /// The patch has too few parameters for a side.
-    #[error(
-        "a patch of {parameters} parameters has no side `{side}`\nhint: curves have left and right, surfaces also \
+    #[error("a patch of {parameters} parameters has no side `{side}`")]
+    #[diagnostic(help(
+        "curves have left and right, surfaces also \
              bottom and top, volumes also front and back"
-    )]
+    ))]
     NoSuchSide {
         /// The side asked for.
         side: Side,
@@ -167,7 +169,8 @@ pub enum TransferError {
         parameters: usize,
     },
     /// A coordinate of a point is infinite or not a number.
-    #[error("point {index} at {position:?} is not finite\nhint: look where the points come from")]
+    #[error("point {index} at {position:?} is not finite")]
+    #[diagnostic(help("look where the points come from"))]
     NotFinite {
         /// Index of the point.
         index: usize,
@@ -177,9 +180,12 @@ pub enum TransferError {
     /// A point lies off all sides.
     #[error(
         "point {index} at {position:?} lies {distance} away from the nearest side `{side}`, which is more than the \
-         tolerance of {tolerance} (lengths in the unit of the patch)\nhint: check that points and patch show the same \
-         shape, in the same place and unit; if they do, raise the tolerance above {distance}"
+         tolerance of {tolerance} (lengths in the unit of the patch)"
     )]
+    #[diagnostic(help(
+        "check that points and patch show the same \
+         shape, in the same place and unit; if they do, raise the tolerance above {distance}"
+    ))]
     TooFar {
         /// Index of the point.
         index: usize,

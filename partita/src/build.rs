@@ -2,6 +2,7 @@
 
 pub(crate) mod interface;
 
+use miette::Diagnostic;
 use partita_coupling::{Block, March, Quantity, SetupError, Transfer};
 use partita_fluid::{FluidError, FluidSolver};
 use partita_structure::{MaterialError, Space, StructureError, StructureSolver};
@@ -22,19 +23,23 @@ const COMPONENTS: usize = 2;
 const INTERFACE: &str = "interface";
 
 /// A scene that reads well but cannot be built.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Diagnostic)]
 pub enum BuildError {
     /// The fluid.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Fluid(#[from] FluidError),
     /// The structure's material.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Material(#[from] MaterialError),
     /// The structure.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Structure(#[from] StructureError),
     /// The coupling.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Coupling(#[from] SetupError),
 }
 

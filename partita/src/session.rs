@@ -5,6 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use miette::Diagnostic;
 use partita_coupling::{IterationRecord, MarchState, Observer, RetryRecord, StepError, StepRecord};
 use partita_fluid::FluidState;
 use partita_numerics::Field;
@@ -43,19 +44,23 @@ impl Options<'_> {
 }
 
 /// Why a run could not go on.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum RunError {
     /// The scene cannot be built.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Build(#[from] BuildError),
     /// A step could not be solved; the run's folder holds what was reached.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Step(#[from] StepError),
     /// The output folder.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Output(#[from] OutputError),
     /// What a step came to could not be written.
-    #[error("step {step} (t = {} s), output: {}\nhint: see that the folder can be written and has space; {}", shown(*time), first_line(source), way_back(dir, *checkpoint))]
+    #[error("step {step} (t = {} s), output: {source}", shown(*time))]
+    #[diagnostic(help("see that the folder can be written and has space; {}", way_back(dir, *checkpoint)))]
     Storage {
         /// The last step that was solved.
         step: usize,
@@ -70,11 +75,13 @@ pub enum RunError {
     },
     /// The checkpoint.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Checkpoint(#[from] CheckpointError),
     /// The checkpoint belongs to another scene.
-    #[error(
-        "the checkpoint does not fit the scene beside it: {0}\nhint: the scene of a run must not be changed before it is resumed; start a new run instead"
-    )]
+    #[error("the checkpoint does not fit the scene beside it: {0}")]
+    #[diagnostic(help(
+        "the scene of a run must not be changed before it is resumed; start a new run instead"
+    ))]
     Misfit(String),
 }
 
@@ -162,7 +169,8 @@ impl<'a> Session<'a> {
         let writer = RunWriter::resume(dir, &checkpoint.stamp, probes.columns(), clock)?;
         let step = checkpoint.stamp.step;
         let note = checkpoint.latest_unusable.map(|error| {
-            format!("the latest checkpoint is not usable, the run goes on after step {step}\n{error}")
+            let hint = error.help().map_or_else(String::new, |help| format!("\nhint: {help}"));
+            format!("the latest checkpoint is not usable, the run goes on after step {step}\n{error}{hint}")
         });
         Ok(Self { run, resolved, scene, probes, drawing, writer, options, saved: Some(step), note })
     }
@@ -206,9 +214,9 @@ impl<'a> Session<'a> {
     fn give_up(mut self, error: RunError, watcher: &mut dyn Watcher) -> RunError {
         let drawn = self.draw().map_err(RunError::from);
         let saved = self.save_if_wanted();
-        let summed = self.writer.fail(first_line(&error)).map(drop).map_err(RunError::from);
+        let summed = self.writer.fail(error.to_string()).map(drop).map_err(RunError::from);
         for lost in [drawn, saved, summed].into_iter().filter_map(Result::err) {
-            watcher.note(&format!("warning: {}", first_line(&lost)));
+            watcher.note(&format!("warning: {lost}"));
         }
         error
     }
@@ -225,7 +233,7 @@ impl<'a> Session<'a> {
             source: Box::new(error),
         };
         // A small file may still fit; that it does not is no news.
-        let _ = self.writer.fail(first_line(&error));
+        let _ = self.writer.fail(error.to_string());
         error
     }
 
@@ -336,11 +344,6 @@ fn most_kept_bytes(run: &Run) -> usize {
 /// Most entries of a tangent that a checkpoint will hold.
 fn most_entries<F: Field>(field: &F) -> usize {
     if field.keeps_factor() { field.tangent().1.len() } else { 0 }
-}
-
-/// What happened, without the hint.
-fn first_line(error: &RunError) -> String {
-    error.to_string().lines().next().unwrap_or_default().to_owned()
 }
 
 fn way_back(dir: &Path, checkpoint: Option<usize>) -> String {

@@ -2,6 +2,7 @@
 
 use partita_iga::transfer::{Row, TransferError, add_to_control_points, rows, to_points};
 use partita_iga::{Side, Spline, build};
+use partita_testing::with_hint;
 use proptest::prelude::*;
 
 use crate::support::{distance, noise, splines};
@@ -206,7 +207,7 @@ fn a_point_beyond_the_tolerance_is_named_with_its_place_and_distance() {
     let plate = build::rectangle([0.0, 0.0], [2.0, 1.0], [2, 1], [4, 1]).unwrap();
     let points = [[0.5, 1.0], [1.5, 1.25], [1.0, 3.0]];
     let error = rows(&plate, &[Side::TOP], &points, 1e-3).unwrap_err();
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     point 1 at [1.5, 1.25] lies 0.25 away from the nearest side `top`, which is more than the tolerance of 0.001 (lengths in the unit of the patch)
     hint: check that points and patch show the same shape, in the same place and unit; if they do, raise the tolerance above 0.25
     ");

@@ -36,15 +36,15 @@ pub struct Row {
 }
 
 /// Why points cannot be tied to the boundary of a mesh.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum TransferError {
     /// There is nothing to project to.
-    #[error(
-        "points cannot be projected to no boundary group at all\nhint: name at least one group of the mesh"
-    )]
+    #[error("points cannot be projected to no boundary group at all")]
+    #[diagnostic(help("name at least one group of the mesh"))]
     NoGroups,
     /// The mesh has no group of that name.
-    #[error("the mesh has no boundary group `{group}`\nhint: it has {known}")]
+    #[error("the mesh has no boundary group `{group}`")]
+    #[diagnostic(help("it has {known}"))]
     NoSuchGroup {
         /// The group asked for.
         group: String,
@@ -52,7 +52,8 @@ pub enum TransferError {
         known: String,
     },
     /// A coordinate of a point is infinite or not a number.
-    #[error("point {index} at {place} is not finite\nhint: look where the points come from")]
+    #[error("point {index} at {place} is not finite")]
+    #[diagnostic(help("look where the points come from"))]
     NotFinite {
         /// Index of the point.
         index: usize,
@@ -62,9 +63,12 @@ pub enum TransferError {
     /// A point lies off all groups.
     #[error(
         "point {index} at {place} lies {distance:e} m away from the nearest boundary group, `{group}`, which is more \
-         than the tolerance of {tolerance:e} m\nhint: check that points and mesh show the same shape, in the same place \
-         and unit; if they do, raise the tolerance above that distance"
+         than the tolerance of {tolerance:e} m"
     )]
+    #[diagnostic(help(
+        "check that points and mesh show the same shape, in the same place \
+         and unit; if they do, raise the tolerance above that distance"
+    ))]
     TooFar {
         /// Index of the point.
         index: usize,

@@ -3,6 +3,7 @@
 use partita_mesh::SolidMesh;
 use partita_mesh::solid::reference::line_shape;
 use partita_mesh::solid::transfer::{Row, TransferError, add_to_nodes, rows, to_points};
+use partita_testing::with_hint;
 use proptest::prelude::*;
 
 use crate::solid::{KINDS, bent_square, plates};
@@ -114,12 +115,12 @@ fn points_and_groups_that_do_not_fit_are_refused_by_name() {
     let error = rows::<2>(&mesh, &[] as &[&str], &[[0.5, 0.5]], 1.0).expect_err("no group");
     assert_eq!(error, TransferError::NoGroups);
     let error = rows(&mesh, &["lid"], &[[0.5, 0.5]], 1.0).expect_err("no such group");
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     the mesh has no boundary group `lid`
     hint: it has `left`, `right`, `bottom`, `top`
     ");
     let error = rows(&mesh, &["left", "bottom"], &[[0.0, 0.0], [-0.25, 0.5]], 1e-6).expect_err("too far");
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     point 1 at (-0.25, 0.5) m lies 2.5e-1 m away from the nearest boundary group, `left`, which is more than the tolerance of 1e-6 m
     hint: check that points and mesh show the same shape, in the same place and unit; if they do, raise the tolerance above that distance
     ");

@@ -2,6 +2,7 @@
 
 use std::error::Error;
 
+use miette::Diagnostic;
 use partita_coupling::{Block, Effort, NewtonLimit, Participant, ParticipantError, Step};
 
 use partita_numerics::field::{Field, StateMismatch};
@@ -78,7 +79,7 @@ impl<F: Field> Slot<F> {
 impl<F> Participant for Slot<F>
 where
     F: Field,
-    F::Error: Error + Send + Sync + 'static,
+    F::Error: Diagnostic + Send + Sync + 'static,
 {
     fn name(&self) -> &str {
         F::NAME

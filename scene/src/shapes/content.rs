@@ -117,7 +117,7 @@ pub(super) fn choose(
         ConvertError::UnknownRegion { name: wanted, groups: known, .. } => {
             unknown(&wanted, name, &groups, &known).mark_if(place, "no such surface")
         }
-        other => Finding::of(&format!("{name}: {other}")),
+        other => Finding::of(&other).led_by(&format!("{name}: ")),
     })
 }
 

@@ -9,6 +9,7 @@ use partita_numerics::newton::{self, Limit, Problem, Verdict};
 use partita_structure::{
     Boundary, Material, Rayleigh, Space, StructureError, StructureModel, StructureSettings, StructureSolver,
 };
+use partita_testing::with_hint;
 
 use crate::common::{
     KINDS, bare, beam, bent_square, dense_tangent, dynamic, largest, linear, neo_hookean, noise, on_mesh,
@@ -311,7 +312,7 @@ fn a_point_outside_has_no_displacement() {
 fn parts_that_the_space_does_not_have_are_refused_by_name() {
     let refusal = |space: Space<2>, clamped: Boundary| {
         let model = StructureModel { clamped, ..bare(svk(1.0, 0.3)) };
-        StructureSolver::new(space, model, quasi_static()).err().expect("a refusal").to_string()
+        with_hint(&StructureSolver::new(space, model, quasi_static()).err().expect("a refusal"))
     };
     let mesh = || Space::Lagrange(bent_square(CellKind::Quadrilateral4, 2));
     let patch = || Space::from(beam(1.0, 0.1, 2, 2));

@@ -50,7 +50,7 @@ mod wetted;
 
 pub use boundary::Boundary;
 pub use error::StructureError;
-pub use interface::{InterfaceRow, Segment};
+pub use interface::Segment;
 pub use load::{BodyForce, VectorField};
 pub use material::{Law, Material, MaterialError, Plane, Response, ResponseError};
 pub use model::{LineSearch, Rayleigh, StructureModel, StructureSettings};

@@ -37,17 +37,14 @@
 //! the last bit.
 
 mod error;
+mod format;
 mod read;
 mod write;
 
 pub use error::{Fault, FileError};
+pub use format::{FORMAT, VERSION};
 
 use crate::spline::Spline;
-
-/// The value of the key `format`.
-pub const FORMAT: &str = "partita-spline";
-/// The version of the format that is written, and the only one that is read.
-pub const VERSION: usize = 1;
 
 /// The text of a spline's file.
 ///

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{FORMAT, VERSION};
+use super::format::{FORMAT, KEYS, VERSION};
 use crate::knots::KnotError;
 use crate::spline::{MAX_PARAMETERS, SplineError};
 
@@ -70,7 +70,7 @@ pub enum Fault {
     #[error("`{key}` is not a key of a spline file")]
     #[diagnostic(help("{}", match nearest {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("keys are {}", super::read::KEYS.join(", ")),
+        None => format!("keys are {}", KEYS.join(", ")),
     }))]
     UnknownKey {
         /// The key found.

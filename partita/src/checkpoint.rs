@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use crate::output::Spent;
+use crate::clock::Spent;
 
 /// Name of the latest checkpoint in a run's folder.
 pub const LATEST: &str = "checkpoint.bin";

@@ -48,8 +48,9 @@ use lines::LineFile;
 use partita_scene::{INPUT_FOLDER, Input};
 use record::{Line, ProbeRow};
 
+pub use crate::clock::{Clock, Spent};
 pub use error::OutputError;
-pub use summary::{Clock, Ending, Seconds, Spent, Summary, Totals, Work};
+pub use summary::{Ending, Seconds, Summary, Totals, Work};
 
 /// The resolved scene.
 pub const SCENE: &str = "scene.toml";

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use miette::Diagnostic;
 
-use super::document::Sources;
+use super::sources::Sources;
 
 /// One thing that is wrong, where, and how to mend it.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,10 +2,10 @@
 
 use partita_mesh::gmsh::{ConvertError, GmshFile, PhysicalGroup};
 
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::schema::{FileName, Groups};
 use crate::spelling::nearest;
-use crate::validate::Check;
 
 /// The physical groups of a file, and what became of them.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -9,9 +9,9 @@ use partita_mesh::refine;
 use super::content::{self, Content};
 use super::read::{self, Input};
 use super::{FLUID_FILE, Shapes};
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::schema::{Circle, Count, Diagonals, FluidMesh, GmshMesh, Positive, Real, RectangleMesh};
-use crate::validate::Check;
 
 /// More would make millions of triangles of a single one.
 const MOST_REFINEMENTS: usize = 10;

@@ -8,12 +8,12 @@ use partita_structure::{Patch, Space};
 use super::content::{self, Content};
 use super::read::{self, Input};
 use super::{PATCH_FILE, SOLID_FILE, Shapes};
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::schema::{
     Alignment, ArcPatch, Count, CurvePatch, Degree, Geometry, Positive, Real, RectanglePatch, SolidMesh,
     SplineFile,
 };
-use crate::validate::Check;
 
 /// The space, or what is wrong with it.
 pub(super) fn space(

@@ -23,7 +23,8 @@
 //! the interface `point * D + c`, in the order of [`StructureSolver::interface_points`]. Units are SI; in the plane, forces and energies are per metre
 //! of depth.
 
-pub mod boundary;
+pub mod body_force;
+mod boundary;
 pub mod elements;
 pub mod error;
 pub mod interface;
@@ -48,10 +49,10 @@ mod probe;
 mod tensor;
 mod wetted;
 
+pub use body_force::{BodyForce, VectorField};
 pub use boundary::Boundary;
 pub use error::StructureError;
 pub use interface::Segment;
-pub use load::{BodyForce, VectorField};
 pub use material::{Law, Material, MaterialError, Plane, Response, ResponseError};
 pub use model::{LineSearch, Rayleigh, StructureModel, StructureSettings};
 pub use modes::Mode;

@@ -41,7 +41,7 @@ impl Failure {
             RunError::Output(error) if error.is_refused_write() => Self {
                 code: WRONG_INPUT,
                 report: Complaint {
-                    what: Complaint::from_display(&error).what,
+                    what: error.to_string(),
                     hint: "name a folder that can be written, on a disk with space, with --out".to_owned(),
                 }
                 .into(),
@@ -97,7 +97,7 @@ impl From<SceneError> for Failure {
 
 impl From<BuildError> for Failure {
     fn from(error: BuildError) -> Self {
-        Self { code: WRONG_INPUT, report: Complaint::from_display(&error).into() }
+        Self { code: WRONG_INPUT, report: Complaint::of(&error).into() }
     }
 }
 
@@ -107,7 +107,7 @@ impl From<StoreError> for Failure {
             StoreError::Foreign { .. } | StoreError::InUse { .. } => WRONG_INPUT,
             StoreError::File { .. } => FAILED_RUN,
         };
-        Self { code, report: Complaint::from_display(&error).into() }
+        Self { code, report: Complaint::of_sweep(&error).into() }
     }
 }
 
@@ -126,9 +126,9 @@ impl From<OutputError> for Failure {
                 .into(),
             },
             OutputError::Foreign { .. } | OutputError::InUse { .. } | OutputError::NoSpace { .. } => {
-                Self { code: WRONG_INPUT, report: Complaint::from_display(&error).into() }
+                Self { code: WRONG_INPUT, report: Complaint::of(&error).into() }
             }
-            _ => Self { code: FAILED_RUN, report: Complaint::from_display(&error).into() },
+            _ => Self { code: FAILED_RUN, report: Complaint::of(&error).into() },
         }
     }
 }
@@ -145,7 +145,7 @@ impl From<StudyFailure> for Failure {
             StudyFailure::Occupied { .. } | StudyFailure::Write { .. } => WRONG_INPUT,
             StudyFailure::Reference { .. } => FAILED_RUN,
         };
-        Self { code, report: Complaint::from_display(&error).into() }
+        Self { code, report: Complaint::of_sweep(&error).into() }
     }
 }
 
@@ -155,9 +155,9 @@ impl From<RunError> for Failure {
             RunError::Build(error) => error.into(),
             RunError::Output(error) => error.into(),
             RunError::Misfit(_) | RunError::Checkpoint(CheckpointError::Missing { .. }) => {
-                Self { code: WRONG_INPUT, report: Complaint::from_display(&error).into() }
+                Self { code: WRONG_INPUT, report: Complaint::of(&error).into() }
             }
-            _ => Self { code: FAILED_RUN, report: Complaint::from_display(&error).into() },
+            _ => Self { code: FAILED_RUN, report: Complaint::of(&error).into() },
         }
     }
 }
@@ -169,7 +169,7 @@ fn place(problem: &dyn Diagnostic) -> Option<String> {
     Some(format!("{}:{}", text.name()?, text.line() + 1))
 }
 
-/// A message of a library: what and where, then a line `hint: ...`.
+/// What is wrong and what to do about it, without the errors behind it, which say it again.
 #[derive(Debug)]
 struct Complaint {
     what: String,
@@ -177,7 +177,13 @@ struct Complaint {
 }
 
 impl Complaint {
-    fn from_display(error: &impl fmt::Display) -> Self {
+    fn of(error: &dyn Diagnostic) -> Self {
+        let hint = error.help().map(|help| help.to_string());
+        Self { what: error.to_string(), hint: hint.unwrap_or_default() }
+    }
+
+    /// The message of a sweep: what and where, then a line `hint: ...`.
+    fn of_sweep(error: &impl fmt::Display) -> Self {
         let text = error.to_string();
         let (what, hint) = text.split_once("\nhint: ").unwrap_or((&text, ""));
         Self { what: what.to_owned(), hint: hint.to_owned() }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::divergence::Growth;
@@ -9,7 +10,8 @@ use crate::participant::{ParticipantError, Step};
 use crate::record::StepHistory;
 
 /// A step could not be finished. Both fields are back at the committed state, so it can be tried again.
-#[derive(Error)]
+#[derive(Error, Diagnostic)]
+#[diagnostic(forward(cause))]
 #[error("step {} (t = {} s), {}{cause}", step.index, short(step.time), place(*iteration, *coupled))]
 pub struct StepError {
     /// The step that failed.
@@ -50,15 +52,17 @@ fn place(iteration: usize, coupled: bool) -> String {
 }
 
 /// Why a step failed.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Diagnostic)]
 pub enum StepFailure {
     /// A field gave up.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Participant(#[from] ParticipantError),
     /// A number at the interface is not finite.
-    #[error(
-        "{origin}: {value:e} at {place}\nhint: the coupling iteration diverges or a field returned garbage; try a smaller relaxation factor, a quasi-Newton method or another time step"
-    )]
+    #[error("{origin}: {value:e} at {place}")]
+    #[diagnostic(help(
+        "the coupling iteration diverges or a field returned garbage; try a smaller relaxation factor, a quasi-Newton method or another time step"
+    ))]
     NotFinite {
         /// Who produced it: a field's name or the acceleration.
         origin: String,
@@ -68,7 +72,10 @@ pub enum StepFailure {
         value: f64,
     },
     /// The interface residual grows, see [`divergence`](crate::divergence).
-    #[error("{}the coupling iteration diverges: |r| grew from {:.3e} m in iteration {} to {:.3e} m in iteration {}\nhint: take a smaller relaxation factor, Aitken relaxation or a quasi-Newton method, and with one a small `unseen_relaxation`; a smaller time step does not help against the added mass of an incompressible fluid", lead(field.as_deref()), growth.from, growth.since, growth.to, growth.at)]
+    #[error("{}the coupling iteration diverges: |r| grew from {:.3e} m in iteration {} to {:.3e} m in iteration {}", lead(field.as_deref()), growth.from, growth.since, growth.to, growth.at)]
+    #[diagnostic(help(
+        "take a smaller relaxation factor, Aitken relaxation or a quasi-Newton method, and with one a small `unseen_relaxation`; a smaller time step does not help against the added mass of an incompressible fluid"
+    ))]
     Diverges {
         /// How far it grew.
         growth: Growth,
@@ -80,6 +87,7 @@ pub enum StepFailure {
     #[error(
         "the step is not converged after {iterations} coupling iterations: |r| = {residual:.3e} m ({relative_residual:.3e} of the interface displacement), largest change {largest_change:.3e}, {open}{}", outlook(*stands_since, idle, *hardly_moves)
     )]
+    #[diagnostic(help("{}", advice(*stands_since, idle, *hardly_moves)))]
     TooManyIterations {
         /// The bound.
         iterations: usize,
@@ -123,30 +131,45 @@ fn lead(field: Option<&ParticipantError>) -> String {
     field.map_or_else(|| "interface: ".to_owned(), |error| format!("{}: {}; ", error.field, error.message))
 }
 
-/// Whether more iterations would help.
+/// What the iterations of the step have in common.
 fn outlook(stands_since: Option<usize>, idle: &[IdleField], hardly_moves: Option<f64>) -> String {
     let since = stands_since
         .map_or_else(String::new, |iteration| format!("; |r| has not fallen since iteration {iteration}"));
     if let Some(displacement) = hardly_moves {
         return format!(
-            "{since}; the interface moves by {displacement:.1e} m in all, hardly more than round-off of its size\nhint: judge such a step \
-             by an absolute bound: `coupling.convergence = {{ interface_residual = {{ absolute = ... }} }}` in metres"
+            "{since}; the interface moves by {displacement:.1e} m in all, hardly more than round-off of its size"
         );
+    }
+    if idle.is_empty() { since } else { format!("{since}; {}", list(idle, ToString::to_string, ", ")) }
+}
+
+/// Whether more iterations would help, and what would.
+fn advice(stands_since: Option<usize>, idle: &[IdleField], hardly_moves: Option<f64>) -> String {
+    if hardly_moves.is_some() {
+        return "judge such a step by an absolute bound: \
+                `coupling.convergence = { interface_residual = { absolute = ... } }` in metres"
+            .to_owned();
     }
     if !idle.is_empty() {
-        let list = |part: fn(&IdleField) -> String, and| idle.iter().map(part).collect::<Vec<_>>().join(and);
         return format!(
-            "{since}; {}\nhint: its residual stays below its own bound, which is too loose for the coupling: lower {}",
-            list(ToString::to_string, ", "),
-            list(|field| format!("`{}.newton.tolerance`", field.name), " and "),
+            "its residual stays below its own bound, which is too loose for the coupling: lower {}",
+            list(idle, |field| format!("`{}.newton.tolerance`", field.name), " and "),
         );
     }
-    match stands_since {
-        None => "\nhint: raise the iteration bound, use a quasi-Newton method, or check that the tolerances can be met".to_owned(),
-        Some(_) => format!(
-            "{since}\nhint: more iterations will not help; take a smaller relaxation factor, Aitken relaxation or a quasi-Newton method, or check that the tolerances can be met"
-        ),
-    }
+    let advice = match stands_since {
+        None => {
+            "raise the iteration bound, use a quasi-Newton method, or check that the tolerances can be met"
+        }
+        Some(_) => {
+            "more iterations will not help; take a smaller relaxation factor, Aitken relaxation or a quasi-Newton method, \
+             or check that the tolerances can be met"
+        }
+    };
+    advice.to_owned()
+}
+
+fn list(fields: &[IdleField], part: fn(&IdleField) -> String, and: &str) -> String {
+    fields.iter().map(part).collect::<Vec<_>>().join(and)
 }
 
 #[cfg(test)]
@@ -171,8 +194,9 @@ mod tests {
         };
         assert_eq!(
             error.to_string(),
-            "step 12 (t = 0.12 s), coupling iteration 7, fluid: mesh motion failed at (0.1, 0.2) m\nhint: use a smaller time step"
+            "step 12 (t = 0.12 s), coupling iteration 7, fluid: mesh motion failed at (0.1, 0.2) m"
         );
+        assert_eq!(error.help().expect("a remedy").to_string(), "use a smaller time step");
         let cause = error.source().expect("the cause is kept");
         assert_eq!(
             cause.source().expect("the field's own error is kept").to_string(),

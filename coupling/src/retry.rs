@@ -88,14 +88,13 @@ impl StepSizes {
 
 /// The record of a step that failed with `error` and is tried again with steps of `next_dt` \[s\].
 fn record(error: &StepError, next_dt: f64) -> RetryRecord {
-    let cause = error.cause.to_string();
     RetryRecord {
         step: error.step.index,
         time: error.step.time,
         dt: error.step.dt,
         next_dt,
         iteration: error.iteration,
-        cause: cause.lines().next().unwrap_or_default().to_owned(),
+        cause: error.cause.to_string(),
     }
 }
 

@@ -2,15 +2,17 @@
 
 use std::fmt;
 
+use miette::Diagnostic;
 use thiserror::Error;
 
 /// The parts of a coupled problem do not fit together.
-#[derive(Debug, Error, PartialEq)]
+#[derive(Debug, Error, Diagnostic, PartialEq)]
 pub enum SetupError {
     /// The two participants and the transfers list different numbers of blocks.
     #[error(
-        "{first} has {first_input} input and {first_output} output blocks, {second} has {second_input} and {second_output}, and there are {transfers} transfers\nhint: one block and one transfer an interface"
+        "{first} has {first_input} input and {first_output} output blocks, {second} has {second_input} and {second_output}, and there are {transfers} transfers"
     )]
+    #[diagnostic(help("one block and one transfer an interface"))]
     BlockCount {
         /// Name of the first participant.
         first: String,
@@ -44,7 +46,8 @@ pub enum SetupError {
         problem: String,
     },
     /// A setting is out of its range.
-    #[error("{setting} = {value} is not allowed\nhint: {hint}")]
+    #[error("{setting} = {value} is not allowed")]
+    #[diagnostic(help("{hint}"))]
     Setting {
         /// Name of the setting.
         setting: &'static str,
@@ -62,9 +65,8 @@ pub enum SetupError {
         problem: String,
     },
     /// A saved state belongs to other choices or to another interface.
-    #[error(
-        "the saved state of `{what}` does not fit: {problem}\nhint: resume with the choices the state was saved with"
-    )]
+    #[error("the saved state of `{what}` does not fit: {problem}")]
+    #[diagnostic(help("resume with the choices the state was saved with"))]
     State {
         /// Whose state it is.
         what: String,

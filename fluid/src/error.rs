@@ -7,10 +7,11 @@ use partita_numerics::field::StateMismatch;
 use partita_numerics::time::shown;
 
 /// Why a fluid cannot be set up or advanced.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum FluidError {
     /// A property outside its range.
-    #[error("fluid: {name} {value} {unit} is out of range\nhint: {range}")]
+    #[error("fluid: {name} {value} {unit} is out of range")]
+    #[diagnostic(help("{range}"))]
     Property {
         /// Which one.
         name: &'static str,
@@ -22,7 +23,8 @@ pub enum FluidError {
         range: &'static str,
     },
     /// A condition for a boundary group that the mesh does not have.
-    #[error("fluid: the mesh has no boundary group `{group}`\nhint: its groups are {known}")]
+    #[error("fluid: the mesh has no boundary group `{group}`")]
+    #[diagnostic(help("its groups are {known}"))]
     UnknownGroup {
         /// As given.
         group: String,
@@ -30,25 +32,22 @@ pub enum FluidError {
         known: String,
     },
     /// Two conditions for one boundary group.
-    #[error("fluid: boundary group `{group}` has two conditions\nhint: remove one of them")]
+    #[error("fluid: boundary group `{group}` has two conditions")]
+    #[diagnostic(help("remove one of them"))]
     TwoConditions {
         /// The group.
         group: String,
     },
     /// A boundary group without condition.
-    #[error(
-        "fluid: boundary group `{group}` has no condition\n\
-         hint: give it one; a boundary where the fluid may leave without stress is `StressFree`"
-    )]
+    #[error("fluid: boundary group `{group}` has no condition")]
+    #[diagnostic(help("give it one; a boundary where the fluid may leave without stress is `StressFree`"))]
     NoCondition {
         /// The group.
         group: String,
     },
     /// Boundary facets without a group.
-    #[error(
-        "fluid: {count} boundary facets belong to no group, the first at {place}\n\
-         hint: every boundary facet needs a group and each group a condition"
-    )]
+    #[error("fluid: {count} boundary facets belong to no group, the first at {place}")]
+    #[diagnostic(help("every boundary facet needs a group and each group a condition"))]
     UngroupedBoundary {
         /// How many.
         count: usize,
@@ -56,44 +55,41 @@ pub enum FluidError {
         place: Place,
     },
     /// Mesh nodes shall slide along a boundary that moves.
-    #[error(
-        "fluid: boundary group `{group}` moves, its mesh nodes cannot slide\n\
-         hint: let the mesh slide along the walls beside it"
-    )]
+    #[error("fluid: boundary group `{group}` moves, its mesh nodes cannot slide")]
+    #[diagnostic(help("let the mesh slide along the walls beside it"))]
     SlidesAndMoves {
         /// The group.
         group: String,
     },
     /// Velocity is prescribed all round: the pressure has no level.
     #[error(
-        "fluid: every boundary prescribes the normal velocity, so pressure is known only up to a constant\n\
-         hint: pin the pressure of one node, or make one boundary an outflow or a traction"
+        "fluid: every boundary prescribes the normal velocity, so pressure is known only up to a constant"
     )]
+    #[diagnostic(help("pin the pressure of one node, or make one boundary an outflow or a traction"))]
     PressureLevel,
     /// Velocity is prescribed all round, and another field moves the boundary.
     #[error(
         "fluid: boundary group `{group}` moves with a structure, and every boundary prescribes the normal velocity: \
          an incompressible fluid admits only motions that keep its volume, and the iterates of an elastic structure \
-         do not\n\
-         hint: make one boundary an outflow or a traction"
+         do not"
     )]
+    #[diagnostic(help("make one boundary an outflow or a traction"))]
     ClosedAndMoving {
         /// The first group that moves so.
         group: String,
     },
     /// A pressure pin where the pressure has a level.
     #[error(
-        "fluid: a pressure pin is given, but boundary group `{group}` already fixes the level of pressure\n\
-         hint: remove the pin"
+        "fluid: a pressure pin is given, but boundary group `{group}` already fixes the level of pressure"
     )]
+    #[diagnostic(help("remove the pin"))]
     NeedlessPin {
         /// A group with a natural condition.
         group: String,
     },
     /// A pressure pin at a node that does not exist.
-    #[error(
-        "fluid: pressure pin at node {node}, but there are only {nodes} nodes (counted from 0)\nhint: 0 will do"
-    )]
+    #[error("fluid: pressure pin at node {node}, but there are only {nodes} nodes (counted from 0)")]
+    #[diagnostic(help("0 will do"))]
     PinOutOfRange {
         /// As given.
         node: usize,
@@ -101,18 +97,13 @@ pub enum FluidError {
         nodes: usize,
     },
     /// Prescribed velocities and motions do not keep the volume.
-    #[error(
-        "t = {} s, fluid: {what} carry a net {net:.3e} m^{dimension}/s out of a closed domain \
-         ({gross:.3e} m^{dimension}/s pass its boundary)\n\
-         hint: make one boundary an outflow or a traction, or {balance}",
-        shown(*time),
-        what = if *.moves { "moving walls and prescribed velocities" } else { "prescribed velocities" },
-        balance = if *.moves {
+    #[error("t = {} s, fluid: {what} carry a net {net:.3e} m^{dimension}/s out of a closed domain \
+         ({gross:.3e} m^{dimension}/s pass its boundary)", shown(*time), what = if *.moves { "moving walls and prescribed velocities" } else { "prescribed velocities" })]
+    #[diagnostic(help("make one boundary an outflow or a traction, or {balance}", balance = if *.moves {
             "let the walls enclose the same volume at all times"
         } else {
             "balance inflow and outflow edge by edge"
-        },
-    )]
+        }))]
     NetFlux {
         /// When `[s]`.
         time: f64,
@@ -126,7 +117,8 @@ pub enum FluidError {
         dimension: usize,
     },
     /// A time step that is not one.
-    #[error("fluid: time step {dt} s to t = {} s\nhint: time steps are positive and finite", shown(*time))]
+    #[error("fluid: time step {dt} s to t = {} s", shown(*time))]
+    #[diagnostic(help("time steps are positive and finite"))]
     TimeStep {
         /// The end of the step `[s]`.
         time: f64,
@@ -134,10 +126,8 @@ pub enum FluidError {
         dt: f64,
     },
     /// A prescribed value that is infinite or not a number.
-    #[error(
-        "t = {} s, fluid: the {what} at node {node}, {place}, is not finite\n\
-         hint: check its expression there", shown(*time)
-    )]
+    #[error("t = {} s, fluid: the {what} at node {node}, {place}, is not finite", shown(*time))]
+    #[diagnostic(help("check its expression there"))]
     NotFinite {
         /// When `[s]`.
         time: f64,
@@ -150,6 +140,7 @@ pub enum FluidError {
     },
     /// The mesh could not follow its boundary.
     #[error("t = {} s, fluid: {source}", shown(*time))]
+    #[diagnostic(forward(source))]
     Motion {
         /// When `[s]`.
         time: f64,
@@ -158,9 +149,11 @@ pub enum FluidError {
     },
     /// Mesh motion could not be set up.
     #[error("fluid: {0}")]
+    #[diagnostic(transparent)]
     MotionSetup(#[from] MotionError),
     /// The tangent could not be factored.
     #[error("t = {} s, fluid: {source}", shown(*time))]
+    #[diagnostic(forward(source))]
     Factorization {
         /// When `[s]`.
         time: f64,
@@ -169,8 +162,10 @@ pub enum FluidError {
     },
     /// The pattern of the tangent could not be analysed.
     #[error("fluid: {0}")]
+    #[diagnostic(transparent)]
     FactorSetup(#[from] FactorError),
     /// A state of another fluid.
-    #[error("fluid: {0}\nhint: states fit only the mesh they were saved from")]
+    #[error("fluid: {0}")]
+    #[diagnostic(help("states fit only the mesh they were saved from"))]
     StateOfAnotherFluid(#[from] StateMismatch),
 }

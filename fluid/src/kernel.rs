@@ -38,7 +38,8 @@ mod terms;
 
 use partita_numerics::lanes::Real;
 
-pub use element::{Element, Fields, Flow, shape};
+pub use crate::flow::Flow;
+pub use element::{Element, Fields, shape};
 pub use terms::{TERMS, Term, Terms};
 
 /// Residual of one element, or of one a lane, and, where wanted, its tangent (row-major, N (D + 1) square, overwritten).

@@ -28,6 +28,7 @@ mod balance;
 mod boundary;
 mod error;
 mod field;
+mod flow;
 mod force;
 pub mod kernel;
 pub mod model;

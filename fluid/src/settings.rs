@@ -4,6 +4,7 @@ use partita_mesh::motion::MotionSettings;
 use partita_numerics::newton;
 use partita_numerics::time::BdfOrder;
 
+pub use crate::flow::Tangent;
 use crate::stabilization::INVERSE_CONSTANT;
 
 /// Steady, or how time derivatives are taken.
@@ -13,19 +14,6 @@ pub enum TimeScheme {
     Steady,
     /// Backward differences of this order with steps of any size; the first step is of order one.
     Bdf(BdfOrder),
-}
-
-/// Which derivative of the residual Newton's method uses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Tangent {
-    /// The derivative of the residual, d tau/du included: quadratic convergence.
-    #[default]
-    Full,
-    /// The derivative with `tau_M` and `tau_C` held: linear convergence, fast where tau changes little.
-    FrozenTau,
-    /// The derivative with the convective velocity u - w held, and with it tau: linear convergence from
-    /// far away.
-    Picard,
 }
 
 /// Fixes the constant that a fluid with prescribed velocity all round leaves free in its pressure.

@@ -6,7 +6,7 @@
 
 use partita_numerics::lanes::{Real, array};
 
-use crate::kernel::Flow;
+use crate::flow::Flow;
 
 /// `C_I` of `tau_M` unless the settings say otherwise: 36, the constant in common use.
 ///

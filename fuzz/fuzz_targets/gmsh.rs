@@ -4,6 +4,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use miette::Diagnostic;
 use partita_mesh::gmsh::{ElementBlock, GmshFile};
 use partita_mesh::quality::measures;
 use partita_mesh::solid::reference::quadrature;
@@ -23,7 +24,7 @@ fuzz_target!(|bytes: &[u8]| {
             check_part(&file, limit);
             check_solid_mesh(file, limit);
         }
-        Err(error) => check_message(&error.to_string()),
+        Err(error) => check_message(&error),
     }
 });
 
@@ -56,7 +57,7 @@ fn check_mesh<const D: usize>(file: GmshFile, limit: usize) {
             assert!(measures(mesh.points(), mesh.cells()).iter().all(|&x| x > 0.0 && x.is_finite()));
             assert!(mesh.groups().iter().all(|group| !group.facets.is_empty()));
         }
-        Err(error) => check_message(&error.to_string()),
+        Err(error) => check_message(&error),
     }
 }
 
@@ -68,7 +69,7 @@ fn check_part(file: &GmshFile, limit: usize) {
             check_mesh::<2>(part.clone(), limit);
             check_solid_mesh(part, limit);
         }
-        Err(error) => check_message(&error.to_string()),
+        Err(error) => check_message(&error),
     }
 }
 
@@ -83,10 +84,10 @@ fn check_solid_mesh(file: GmshFile, limit: usize) {
             }
             assert!(mesh.groups().iter().all(|group| !group.edges.is_empty()));
         }
-        Err(error) => check_message(&error.to_string()),
+        Err(error) => check_message(&error),
     }
 }
 
-fn check_message(message: &str) {
-    assert!(message.contains("\nhint: "), "no hint in: {message}");
+fn check_message(error: &dyn Diagnostic) {
+    assert!(error.help().is_some(), "no hint with: {error}");
 }

@@ -108,37 +108,35 @@ fn check_extent(extent: f64) -> Result<(), BuildError> {
 }
 
 /// Why a shape cannot be built.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum BuildError {
     /// A length, radius or thickness is not positive.
-    #[error(
-        "a shape of extent {extent} does not exist\nhint: lengths and radii are positive, finite numbers"
-    )]
+    #[error("a shape of extent {extent} does not exist")]
+    #[diagnostic(help("lengths and radii are positive, finite numbers"))]
     Extent {
         /// The length given.
         extent: f64,
     },
     /// An arc that is empty or overlaps itself.
-    #[error(
-        "an arc cannot sweep {sweep} rad\nhint: take an angle up to a full turn, 2 pi rad, other than zero"
-    )]
+    #[error("an arc cannot sweep {sweep} rad")]
+    #[diagnostic(help("take an angle up to a full turn, 2 pi rad, other than zero"))]
     Sweep {
         /// The angle given, in rad.
         sweep: f64,
     },
     /// A degree below that of a circle.
-    #[error(
-        "an arc of degree {degree} is not round\nhint: a circle needs a degree of at least 2 along the arc"
-    )]
+    #[error("an arc of degree {degree} is not round")]
+    #[diagnostic(help("a circle needs a degree of at least 2 along the arc"))]
     ArcDegree {
         /// The degree given.
         degree: usize,
     },
     /// Fewer elements than the shape has pieces.
-    #[error(
-        "{found} elements are too few along this shape\nhint: take {needed} or more, because each joint of its pieces is \
+    #[error("{found} elements are too few along this shape")]
+    #[diagnostic(help(
+        "take {needed} or more, because each joint of its pieces is \
          the end of an element; a curve through fewer points has fewer joints"
-    )]
+    ))]
     TooFewElements {
         /// Number of elements asked for.
         found: usize,
@@ -146,25 +144,27 @@ pub enum BuildError {
         needed: usize,
     },
     /// Two splines that do not run alike.
-    #[error(
-        "a ruled spline needs sides with the same knots, and those of parameter {parameter} differ\n\
-         hint: bring the sides to the same degree with `elevate_degree` and to the same knots with `insert_knots`"
-    )]
+    #[error("a ruled spline needs sides with the same knots, and those of parameter {parameter} differ")]
+    #[diagnostic(help(
+        "bring the sides to the same degree with `elevate_degree` and to the same knots with `insert_knots`"
+    ))]
     Unlike {
         /// The first parameter in which they differ.
         parameter: usize,
     },
     /// Not a curve.
-    #[error("a strip runs along a curve, and this spline has {parameters} parameters\nhint: give a curve")]
+    #[error("a strip runs along a curve, and this spline has {parameters} parameters")]
+    #[diagnostic(help("give a curve"))]
     NotACurve {
         /// Number of parameters found.
         parameters: usize,
     },
     /// A curve that stands still, turns back or has a corner.
-    #[error(
-        "the curve has no direction at its parameter {parameter}, near {place:?}\nhint: a strip needs a curve without \
+    #[error("the curve has no direction at its parameter {parameter}, near {place:?}")]
+    #[diagnostic(help(
+        "a strip needs a curve without \
          corners, cusps and points where it stands still"
-    )]
+    ))]
     NoDirection {
         /// The parameter.
         parameter: f64,
@@ -174,9 +174,12 @@ pub enum BuildError {
     /// A strip thicker than its curve is curved.
     #[error(
         "a strip of thickness {thickness} folds over itself at the parameter {parameter} of its curve, near {place:?}, \
-         where the radius of curvature is {radius}\nhint: make the strip thinner, lay it on the outer side of the bend, \
-         or bend the curve less; where the radius is not small, take more elements"
+         where the radius of curvature is {radius}"
     )]
+    #[diagnostic(help(
+        "make the strip thinner, lay it on the outer side of the bend, \
+         or bend the curve less; where the radius is not small, take more elements"
+    ))]
     Folded {
         /// Thickness asked for.
         thickness: f64,
@@ -189,11 +192,14 @@ pub enum BuildError {
     },
     /// The side curves cannot be fitted.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Fit(#[from] FitError),
     /// The degree or the number of elements does not make a knot vector.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Knots(#[from] KnotError),
     /// A position is not finite.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Spline(#[from] SplineError),
 }

@@ -37,17 +37,14 @@
 //! the last bit.
 
 mod error;
+mod format;
 mod read;
 mod write;
 
 pub use error::{Fault, FileError};
+pub use format::{FORMAT, VERSION};
 
 use crate::spline::Spline;
-
-/// The value of the key `format`.
-pub const FORMAT: &str = "partita-spline";
-/// The version of the format that is written, and the only one that is read.
-pub const VERSION: usize = 1;
 
 /// The text of a spline's file.
 ///
@@ -77,6 +74,7 @@ pub fn to_toml<const D: usize>(spline: &Spline<D>) -> String {
 /// dimension than `D`, or one that [`Knots`](crate::Knots) or [`Spline`] refuses. The error knows its place in the text.
 ///
 /// ```
+/// use miette::Diagnostic;
 /// use partita_iga::file;
 ///
 /// let text = "\
@@ -89,10 +87,8 @@ pub fn to_toml<const D: usize>(spline: &Spline<D>) -> String {
 /// let error = file::from_toml::<2>(text).unwrap_err();
 /// assert_eq!(error.line(), 5);
 /// assert_eq!(&text[error.span()], "0.4");
-/// assert_eq!(
-///     error.to_string(),
-///     "line 5, knots[0]: knot 3 is 0.4, smaller than 0.5 before it\nhint: list the knots in ascending order"
-/// );
+/// assert_eq!(error.to_string(), "line 5, knots[0]: knot 3 is 0.4, smaller than 0.5 before it");
+/// assert_eq!(error.help().unwrap().to_string(), "list the knots in ascending order");
 /// ```
 pub fn from_toml<const D: usize>(text: &str) -> Result<Spline<D>, FileError> {
     read::spline(text)

@@ -158,12 +158,11 @@ impl Band {
 }
 
 /// Why no curve can be drawn through the points.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum FitError {
     /// A curve of this degree needs more points.
-    #[error(
-        "{found} points are too few for a curve of degree {degree}\nhint: give more points or lower the degree"
-    )]
+    #[error("{found} points are too few for a curve of degree {degree}")]
+    #[diagnostic(help("give more points or lower the degree"))]
     TooFewPoints {
         /// Number of points given.
         found: usize,
@@ -171,16 +170,18 @@ pub enum FitError {
         degree: usize,
     },
     /// Two neighbours are the same point, so they would have the same parameter.
-    #[error("points {index} and {} coincide\nhint: leave one of them out", index + 1)]
+    #[error("points {index} and {} coincide", index + 1)]
+    #[diagnostic(help("leave one of them out"))]
     Coincident {
         /// Index of the first of them.
         index: usize,
     },
     /// A parameter does not belong to its basis function.
-    #[error(
-        "parameter {index} is {value}\nhint: the parameters ascend, and this one lies in the support of basis function \
+    #[error("parameter {index} is {value}")]
+    #[diagnostic(help(
+        "the parameters ascend, and this one lies in the support of basis function \
          {index}, from {left} to {right}"
-    )]
+    ))]
     Parameter {
         /// Its index.
         index: usize,
@@ -193,9 +194,11 @@ pub enum FitError {
     },
     /// The knots are not valid.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Knots(#[from] KnotError),
     /// The points are not valid.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Spline(#[from] SplineError),
 }
 

@@ -246,19 +246,22 @@ fn check_multiplicities(degree: usize, values: &[f64]) -> Result<(), KnotError> 
 }
 
 /// What is wrong with a knot vector.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum KnotError {
     /// Basis functions of degree zero do not join.
-    #[error("a spline of degree 0 falls apart at its knots\nhint: take a degree of at least 1")]
+    #[error("a spline of degree 0 falls apart at its knots")]
+    #[diagnostic(help("take a degree of at least 1"))]
     DegreeZero,
     /// A uniform knot vector without elements was asked for.
-    #[error("a knot vector needs at least one element\nhint: take 1 or more elements for each parameter")]
+    #[error("a knot vector needs at least one element")]
+    #[diagnostic(help("take 1 or more elements for each parameter"))]
     NoElements,
     /// Fewer knots than both ends need.
-    #[error(
-        "{found} knots are too few for degree {degree}\nhint: degree {degree} needs at least {needed} knots, \
+    #[error("{found} knots are too few for degree {degree}")]
+    #[diagnostic(help(
+        "degree {degree} needs at least {needed} knots, \
          half of them at either end"
-    )]
+    ))]
     TooFew {
         /// Number of knots given.
         found: usize,
@@ -268,7 +271,8 @@ pub enum KnotError {
         degree: usize,
     },
     /// A knot is infinite or not a number.
-    #[error("knot {index} is {value}\nhint: knots are finite numbers")]
+    #[error("knot {index} is {value}")]
+    #[diagnostic(help("knots are finite numbers"))]
     NotFinite {
         /// Its index in the vector.
         index: usize,
@@ -276,9 +280,8 @@ pub enum KnotError {
         value: f64,
     },
     /// A knot is smaller than its predecessor.
-    #[error(
-        "knot {index} is {value}, smaller than {previous} before it\nhint: list the knots in ascending order"
-    )]
+    #[error("knot {index} is {value}, smaller than {previous} before it")]
+    #[diagnostic(help("list the knots in ascending order"))]
     Decreasing {
         /// Its index in the vector.
         index: usize,
@@ -288,10 +291,8 @@ pub enum KnotError {
         value: f64,
     },
     /// The range of the knots is larger than any number.
-    #[error(
-        "the knots run from {start:e} to {end:e}, a range that overflows\n\
-         hint: divide all knots by the same number; only their ratios matter"
-    )]
+    #[error("the knots run from {start:e} to {end:e}, a range that overflows")]
+    #[diagnostic(help("divide all knots by the same number; only their ratios matter"))]
     Overflow {
         /// First knot.
         start: f64,
@@ -299,10 +300,8 @@ pub enum KnotError {
         end: f64,
     },
     /// Two different knots with next to nothing between them.
-    #[error(
-        "the knots {index} and {} differ by {:.1e} of the range, too little for an element between them\n\
-         hint: they are {left} and {right}: make them equal, or move them apart", index + 1, (right - left) / range
-    )]
+    #[error("the knots {index} and {} differ by {:.1e} of the range, too little for an element between them", index + 1, (right - left) / range)]
+    #[diagnostic(help("they are {left} and {right}: make them equal, or move them apart"))]
     TooClose {
         /// Index of the first of them.
         index: usize,
@@ -314,7 +313,8 @@ pub enum KnotError {
         range: f64,
     },
     /// A knot to be inserted does not lie inside the domain.
-    #[error("no knot can be inserted at {value}\nhint: choose a place inside ({start}, {end})")]
+    #[error("no knot can be inserted at {value}")]
+    #[diagnostic(help("choose a place inside ({start}, {end})"))]
     Outside {
         /// The knot asked for.
         value: f64,
@@ -324,10 +324,11 @@ pub enum KnotError {
         end: f64,
     },
     /// An end of the vector does not stand `degree + 1` times.
-    #[error(
-        "the knot at the {} stands {found} times\nhint: repeat it {needed} times (degree + 1), so that the spline \
-         begins and ends in a control point", match end { End::Start => "start", End::End => "end" }
-    )]
+    #[error("the knot at the {} stands {found} times", match end { End::Start => "start", End::End => "end" })]
+    #[diagnostic(help(
+        "repeat it {needed} times (degree + 1), so that the spline \
+         begins and ends in a control point"
+    ))]
     NotClamped {
         /// Which end.
         end: End,
@@ -338,9 +339,9 @@ pub enum KnotError {
     },
     /// An inner knot stands so often that the spline would tear.
     #[error(
-        "the inner knot {value} stands {found} times in a vector of degree {degree}, which tears the spline\n\
-         hint: an inner knot may stand at most {degree} times"
+        "the inner knot {value} stands {found} times in a vector of degree {degree}, which tears the spline"
     )]
+    #[diagnostic(help("an inner knot may stand at most {degree} times"))]
     Multiplicity {
         /// The knot.
         value: f64,

@@ -25,6 +25,7 @@ mod basis;
 pub mod bspline;
 pub mod build;
 mod element;
+mod evaluate;
 pub mod file;
 pub mod fit;
 mod knots;

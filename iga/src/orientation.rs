@@ -183,13 +183,11 @@ impl std::fmt::Display for Place {
 }
 
 /// Why a patch cannot carry a computation.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum OrientationError {
     /// A curve in the plane, a surface in space.
-    #[error(
-        "a spline of {found} parameters fills nothing in {dimension} dimensions\n\
-         hint: give a spline of {dimension} parameters"
-    )]
+    #[error("a spline of {found} parameters fills nothing in {dimension} dimensions")]
+    #[diagnostic(help("give a spline of {dimension} parameters"))]
     Parameters {
         /// Number of parameters.
         found: usize,
@@ -197,19 +195,19 @@ pub enum OrientationError {
         dimension: usize,
     },
     /// Inverted everywhere.
-    #[error(
-        "the patch is mirrored, its Jacobian is negative everywhere, for instance in {at}\n\
-         hint: run one parameter the other way: its control points and weights in reverse order, its knots mirrored"
-    )]
+    #[error("the patch is mirrored, its Jacobian is negative everywhere, for instance in {at}")]
+    #[diagnostic(help(
+        "run one parameter the other way: its control points and weights in reverse order, its knots mirrored"
+    ))]
     Mirrored {
         /// The place where it is most negative.
         at: Place,
     },
     /// Inverted here and not there.
-    #[error(
-        "the patch folds over itself in {at}, where its scaled Jacobian is {scaled_jacobian:.2e}\n\
-         hint: look at the control points near there: one may lie beyond its neighbours or in another's place"
-    )]
+    #[error("the patch folds over itself in {at}, where its scaled Jacobian is {scaled_jacobian:.2e}")]
+    #[diagnostic(help(
+        "look at the control points near there: one may lie beyond its neighbours or in another's place"
+    ))]
     Folded {
         /// The place where it is most negative.
         at: Place,
@@ -217,10 +215,8 @@ pub enum OrientationError {
         scaled_jacobian: f64,
     },
     /// Flat.
-    #[error(
-        "the patch is degenerate in {at}, where its Jacobian vanishes\n\
-         hint: look at the control points near there: some may coincide or lie on one line"
-    )]
+    #[error("the patch is degenerate in {at}, where its Jacobian vanishes")]
+    #[diagnostic(help("look at the control points near there: some may coincide or lie on one line"))]
     Degenerate {
         /// The place.
         at: Place,

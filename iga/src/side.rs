@@ -75,8 +75,9 @@ impl FromStr for Side {
 }
 
 /// A name that belongs to no side.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no side of a patch is called `{name}`\nhint: write left, right, bottom, top, front or back")]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+#[error("no side of a patch is called `{name}`")]
+#[diagnostic(help("write left, right, bottom, top, front or back"))]
 pub struct UnknownSide {
     /// The name as it was written.
     pub name: String,
@@ -84,6 +85,8 @@ pub struct UnknownSide {
 
 #[cfg(test)]
 mod tests {
+    use miette::Diagnostic;
+
     use super::*;
 
     #[test]
@@ -95,7 +98,8 @@ mod tests {
 
     #[test]
     fn an_unknown_name_is_repeated_with_the_names_to_choose_from() {
-        let message = "upper".parse::<Side>().unwrap_err().to_string();
-        assert!(message.contains("`upper`") && message.contains("bottom, top"), "{message}");
+        let error = "upper".parse::<Side>().unwrap_err();
+        assert!(error.to_string().contains("`upper`"), "{error}");
+        assert!(error.help().unwrap().to_string().contains("bottom, top"));
     }
 }

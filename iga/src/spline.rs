@@ -1,6 +1,5 @@
 //! Tensor-product splines.
 
-use crate::basis::{BasisValues, Derivatives};
 use crate::knots::{KnotError, Knots};
 use crate::side::{End, Side};
 
@@ -130,29 +129,6 @@ impl<const D: usize> Spline<D> {
         self.rational
     }
 
-    /// Point at the parameters `xi`. Allocates; loops use [`basis`](Self::basis) with a [`BasisValues`].
-    ///
-    /// # Panics
-    /// When `xi` lies outside the domain or has the wrong length.
-    #[must_use]
-    pub fn point(&self, xi: &[f64]) -> [f64; D] {
-        let mut basis = BasisValues::new(self);
-        self.basis(xi, Derivatives::None, &mut basis);
-        basis.value_of(&self.control_points)
-    }
-
-    /// Derivative of the point by one parameter at `xi`. Allocates, as [`point`](Self::point) does.
-    ///
-    /// # Panics
-    /// When `xi` lies outside the domain or has the wrong length, or there is no such parameter.
-    #[must_use]
-    pub fn tangent(&self, xi: &[f64], parameter: usize) -> [f64; D] {
-        assert!(parameter < self.parameters(), "the spline has no parameter {parameter}");
-        let mut basis = BasisValues::new(self);
-        self.basis(xi, Derivatives::First, &mut basis);
-        basis.first_of(&self.control_points)[parameter]
-    }
-
     /// Whether the spline has this side.
     #[must_use]
     pub fn has_side(&self, side: Side) -> bool {
@@ -228,18 +204,18 @@ fn differ(weights: &[f64]) -> bool {
 }
 
 /// What is wrong with the data of a spline.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum SplineError {
     /// More parameters than [`MAX_PARAMETERS`].
-    #[error("{found} parameters are too many\nhint: curves have 1, surfaces 2, volumes 3")]
+    #[error("{found} parameters are too many")]
+    #[diagnostic(help("curves have 1, surfaces 2, volumes 3"))]
     TooManyParameters {
         /// Number of knot vectors given.
         found: usize,
     },
     /// The number of control points does not fit the knots.
-    #[error(
-        "{found} control points do not fit {shape:?} basis functions\nhint: give {needed} control points"
-    )]
+    #[error("{found} control points do not fit {shape:?} basis functions")]
+    #[diagnostic(help("give {needed} control points"))]
     ControlPoints {
         /// Number of control points given.
         found: usize,
@@ -249,9 +225,8 @@ pub enum SplineError {
         shape: Vec<usize>,
     },
     /// The number of weights does not fit the control points.
-    #[error(
-        "{found} weights do not fit {needed} control points\nhint: give one weight for each control point"
-    )]
+    #[error("{found} weights do not fit {needed} control points")]
+    #[diagnostic(help("give one weight for each control point"))]
     Weights {
         /// Number of weights given.
         found: usize,
@@ -259,15 +234,15 @@ pub enum SplineError {
         needed: usize,
     },
     /// A coordinate is infinite or not a number.
-    #[error(
-        "control point {index} has a coordinate that is not finite\nhint: coordinates are finite numbers"
-    )]
+    #[error("control point {index} has a coordinate that is not finite")]
+    #[diagnostic(help("coordinates are finite numbers"))]
     NotFinite {
         /// Index of the control point.
         index: usize,
     },
     /// A weight is not a positive number.
-    #[error("the weight of control point {index} is {value}\nhint: weights are positive, finite numbers")]
+    #[error("the weight of control point {index} is {value}")]
+    #[diagnostic(help("weights are positive, finite numbers"))]
     Weight {
         /// Index of the control point.
         index: usize,

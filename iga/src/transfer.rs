@@ -21,7 +21,7 @@
 //! let rows = transfer::rows(&plate, &[Side::TOP, Side::RIGHT], &nodes, 1e-6)?;
 //!
 //! // A node at the corner moves with the corner's control point and nothing else.
-//! assert_eq!((rows[2].control_points.as_slice(), rows[2].weights.as_slice()), ([17].as_slice(), [1.0].as_slice()));
+//! assert_eq!(rows[2].weights, [(17, 1.0)]);
 //!
 //! let mut forces = vec![[0.0; 2]; plate.control_points().len()];
 //! transfer::add_to_control_points(&rows, &[[0.0, -1.0]; 4], &mut forces);
@@ -35,13 +35,15 @@ use crate::project::{Projection, Projector};
 use crate::side::Side;
 use crate::spline::Spline;
 
-/// One row of `H`: how a point hangs on the control points of a patch.
+/// The entries of a row of `H`: numbers of control points, or of nodes, and their weights.
+pub type Weights = Vec<(usize, f64)>;
+
+/// One row of `H`: the weights of the control points of a patch at a point, and where on the patch that is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// Control points with a weight other than zero, in ascending order of the patch's numbering.
-    pub control_points: Vec<usize>,
-    /// Their basis functions at the projected point; the sum is one.
-    pub weights: Vec<f64>,
+    /// Control points with a weight other than zero, in ascending order of the patch's numbering, and their weights: the
+    /// basis functions at the projected point, whose sum is one.
+    pub weights: Weights,
     /// The side that the point is closest to.
     pub side: Side,
     /// Parameters of the projected point on that side.
@@ -84,7 +86,7 @@ pub fn to_points<const N: usize>(rows: &[Row], control_points: &[[f64; N]], poin
     assert_eq!(rows.len(), points.len(), "one value for each row");
     for (row, point) in rows.iter().zip(points) {
         *point = [0.0; N];
-        for (&a, weight) in row.control_points.iter().zip(&row.weights) {
+        for &(a, weight) in &row.weights {
             (0..N).for_each(|c| point[c] += weight * control_points[a][c]);
         }
     }
@@ -101,7 +103,7 @@ pub fn add_to_control_points<const N: usize>(
 ) {
     assert_eq!(rows.len(), points.len(), "one value for each row");
     for (row, point) in rows.iter().zip(points) {
-        for (&a, weight) in row.control_points.iter().zip(&row.weights) {
+        for &(a, weight) in &row.weights {
             (0..N).for_each(|c| control_points[a][c] += weight * point[c]);
         }
     }
@@ -124,8 +126,8 @@ impl<const D: usize> Edge<D> {
         let mut basis = BasisValues::new(&self.spline);
         self.spline.basis(&projection.xi, Derivatives::None, &mut basis);
         let entries = basis.active().iter().zip(basis.values()).filter(|(_, weight)| **weight != 0.0);
-        let (control_points, weights) = entries.map(|(&a, weight)| (self.control_points[a], weight)).unzip();
-        Row { control_points, weights, side: self.side, xi: projection.xi, distance: projection.distance }
+        let weights = entries.map(|(&a, &weight)| (self.control_points[a], weight)).collect();
+        Row { weights, side: self.side, xi: projection.xi, distance: projection.distance }
     }
 }
 
@@ -150,16 +152,18 @@ fn row<const D: usize>(
 }
 
 /// Why points cannot be tied to a patch.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum TransferError {
     /// There is nothing to project to.
-    #[error("points cannot be projected to no side at all\nhint: name at least one side of the patch")]
+    #[error("points cannot be projected to no side at all")]
+    #[diagnostic(help("name at least one side of the patch"))]
     NoSides,
     /// The patch has too few parameters for a side.
-    #[error(
-        "a patch of {parameters} parameters has no side `{side}`\nhint: curves have left and right, surfaces also \
+    #[error("a patch of {parameters} parameters has no side `{side}`")]
+    #[diagnostic(help(
+        "curves have left and right, surfaces also \
              bottom and top, volumes also front and back"
-    )]
+    ))]
     NoSuchSide {
         /// The side asked for.
         side: Side,
@@ -167,7 +171,8 @@ pub enum TransferError {
         parameters: usize,
     },
     /// A coordinate of a point is infinite or not a number.
-    #[error("point {index} at {position:?} is not finite\nhint: look where the points come from")]
+    #[error("point {index} at {position:?} is not finite")]
+    #[diagnostic(help("look where the points come from"))]
     NotFinite {
         /// Index of the point.
         index: usize,
@@ -177,9 +182,12 @@ pub enum TransferError {
     /// A point lies off all sides.
     #[error(
         "point {index} at {position:?} lies {distance} away from the nearest side `{side}`, which is more than the \
-         tolerance of {tolerance} (lengths in the unit of the patch)\nhint: check that points and patch show the same \
-         shape, in the same place and unit; if they do, raise the tolerance above {distance}"
+         tolerance of {tolerance} (lengths in the unit of the patch)"
     )]
+    #[diagnostic(help(
+        "check that points and patch show the same \
+         shape, in the same place and unit; if they do, raise the tolerance above {distance}"
+    ))]
     TooFar {
         /// Index of the point.
         index: usize,

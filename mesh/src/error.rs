@@ -5,15 +5,19 @@ use partita_numerics::Place;
 use crate::cell::CellKind;
 
 /// Why points, cells and groups do not make a mesh.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum MeshError {
     /// The mesh has no cell.
-    #[error("the mesh has no cells\nhint: check that the mesh file holds triangles (2D) or tetrahedra (3D)")]
+    #[error("the mesh has no cells")]
+    #[diagnostic(help("check that the mesh file holds triangles (2D) or tetrahedra (3D)"))]
     Empty,
     /// A boundary group that should lie on a circle does not.
     #[error(
-        "node {node} of boundary group `{group}`, at {place}, lies {gap:.3e} m off the circle of that group\nhint: compare the circle's centre and radius with the mesh; a group with straight edges beside the arc needs a name of its own for the arc"
+        "node {node} of boundary group `{group}`, at {place}, lies {gap:.3e} m off the circle of that group"
     )]
+    #[diagnostic(help(
+        "compare the circle's centre and radius with the mesh; a group with straight edges beside the arc needs a name of its own for the arc"
+    ))]
     OffCircle {
         /// The group.
         group: String,
@@ -25,7 +29,8 @@ pub enum MeshError {
         gap: f64,
     },
     /// Cells that are not the simplices of this dimension.
-    #[error("cells of kind {found:?} do not make a mesh in {dimension} dimensions\nhint: only {:?} can be solved on there", CellKind::simplex(*dimension))]
+    #[error("cells of kind {found:?} do not make a mesh in {dimension} dimensions")]
+    #[diagnostic(help("only {:?} can be solved on there", CellKind::simplex(*dimension)))]
     WrongKind {
         /// The kind as given.
         found: CellKind,
@@ -33,9 +38,10 @@ pub enum MeshError {
         dimension: usize,
     },
     /// Cells on which a solid cannot be solved.
-    #[error(
-        "cells of kind {found:?} do not make a solid in {dimension} dimensions\nhint: plane solids consist of triangles or quadrilaterals of degree 1 or 2; solids in space need a patch"
-    )]
+    #[error("cells of kind {found:?} do not make a solid in {dimension} dimensions")]
+    #[diagnostic(help(
+        "plane solids consist of triangles or quadrilaterals of degree 1 or 2; solids in space need a patch"
+    ))]
     NotSolid {
         /// The kind as given.
         found: CellKind,
@@ -43,9 +49,10 @@ pub enum MeshError {
         dimension: usize,
     },
     /// A cell of a solid mesh that is turned inside out, or whose curved edges or moved points fold it.
-    #[error(
-        "cell {cell} is folded near {place}: the determinant of its map is {determinant:.3e} m^2\nhint: corners run counter-clockwise, and the points on its edges stay near the middle; remesh there, or straighten the mesh"
-    )]
+    #[error("cell {cell} is folded near {place}: the determinant of its map is {determinant:.3e} m^2")]
+    #[diagnostic(help(
+        "corners run counter-clockwise, and the points on its edges stay near the middle; remesh there, or straighten the mesh"
+    ))]
     Folded {
         /// The cell.
         cell: usize,
@@ -55,7 +62,8 @@ pub enum MeshError {
         determinant: f64,
     },
     /// A coordinate that is infinite or not a number.
-    #[error("node {node} has a coordinate that is not finite: {coordinates:?}\nhint: repair the mesh file")]
+    #[error("node {node} has a coordinate that is not finite: {coordinates:?}")]
+    #[diagnostic(help("repair the mesh file"))]
     NotFinite {
         /// The node.
         node: usize,
@@ -63,9 +71,8 @@ pub enum MeshError {
         coordinates: Vec<f64>,
     },
     /// A cell or facet that names a node beyond the last one.
-    #[error(
-        "{entity} names node {node}, but there are only {nodes} nodes (counted from 0)\nhint: are the nodes counted from 1?"
-    )]
+    #[error("{entity} names node {node}, but there are only {nodes} nodes (counted from 0)")]
+    #[diagnostic(help("are the nodes counted from 1?"))]
     NodeOutOfRange {
         /// Which cell, or which facet of which group.
         entity: String,
@@ -75,7 +82,8 @@ pub enum MeshError {
         nodes: usize,
     },
     /// A cell that is flat or turned inside out.
-    #[error("cell {cell} at {centroid} has measure {measure:.3e} m^{}: {}", centroid.0.len(), degenerate_hint(*measure))]
+    #[error("cell {cell} at {centroid} has measure {measure:.3e} m^{}: it is {}", centroid.0.len(), if *measure < 0.0 { "inverted" } else { "flat" })]
+    #[diagnostic(help("{}", degenerate_hint(*measure)))]
     NotPositive {
         /// The cell.
         cell: usize,
@@ -85,9 +93,8 @@ pub enum MeshError {
         measure: f64,
     },
     /// A cell so large that its measure overflows.
-    #[error(
-        "cell {cell} at {centroid} is too large for its measure to be a finite number\nhint: check the coordinates and their unit"
-    )]
+    #[error("cell {cell} at {centroid} is too large for its measure to be a finite number")]
+    #[diagnostic(help("check the coordinates and their unit"))]
     TooLarge {
         /// The cell.
         cell: usize,
@@ -95,7 +102,8 @@ pub enum MeshError {
         centroid: Place,
     },
     /// A node that no cell uses; no equation would determine its values.
-    #[error("node {node} at {place} belongs to no cell\nhint: remove it from the mesh")]
+    #[error("node {node} at {place} belongs to no cell")]
+    #[diagnostic(help("remove it from the mesh"))]
     UnusedNode {
         /// The node.
         node: usize,
@@ -103,9 +111,8 @@ pub enum MeshError {
         place: Place,
     },
     /// A facet between more than two cells.
-    #[error(
-        "facet with nodes {nodes:?} belongs to cells {cells:?}, at most two may share it\nhint: look for overlapping cells or cells given twice"
-    )]
+    #[error("facet with nodes {nodes:?} belongs to cells {cells:?}, at most two may share it")]
+    #[diagnostic(help("look for overlapping cells or cells given twice"))]
     SharedFacet {
         /// The facet's nodes.
         nodes: Vec<usize>,
@@ -113,9 +120,8 @@ pub enum MeshError {
         cells: Vec<usize>,
     },
     /// A facet of a group that is not on the boundary.
-    #[error(
-        "group `{group}`: facet {facet} with nodes {nodes:?} at {place} is not on the boundary\nhint: a group holds only facets that belong to exactly one cell"
-    )]
+    #[error("group `{group}`: facet {facet} with nodes {nodes:?} at {place} is not on the boundary")]
+    #[diagnostic(help("a group holds only facets that belong to exactly one cell"))]
     NotOnBoundary {
         /// The group.
         group: String,
@@ -127,9 +133,8 @@ pub enum MeshError {
         place: Place,
     },
     /// A facet named twice.
-    #[error(
-        "facet with nodes {nodes:?} at {place} is in group `{first}` and in group `{second}`\nhint: each boundary facet belongs to one group at most, once"
-    )]
+    #[error("facet with nodes {nodes:?} at {place} is in group `{first}` and in group `{second}`")]
+    #[diagnostic(help("each boundary facet belongs to one group at most, once"))]
     InTwoGroups {
         /// The facet's nodes.
         nodes: Vec<usize>,
@@ -141,21 +146,22 @@ pub enum MeshError {
         second: String,
     },
     /// Two groups of one name.
-    #[error("two boundary groups are called `{name}`\nhint: merge them or rename one")]
+    #[error("two boundary groups are called `{name}`")]
+    #[diagnostic(help("merge them or rename one"))]
     DuplicateGroup {
         /// The name.
         name: String,
     },
     /// A group without facets: a condition given there would act nowhere.
-    #[error("boundary group `{name}` has no facets\nhint: remove it, or check how the boundary was marked")]
+    #[error("boundary group `{name}` has no facets")]
+    #[diagnostic(help("remove it, or check how the boundary was marked"))]
     EmptyGroup {
         /// The name.
         name: String,
     },
     /// A generated box without extent or without divisions.
-    #[error(
-        "a box of size {size:?} m in {divisions:?} divisions from {origin:?} m cannot be meshed\nhint: give finite coordinates, positive sizes and at least one division a direction"
-    )]
+    #[error("a box of size {size:?} m in {divisions:?} divisions from {origin:?} m cannot be meshed")]
+    #[diagnostic(help("give finite coordinates, positive sizes and at least one division a direction"))]
     InvalidBox {
         /// Lower corner `[m]`.
         origin: Vec<f64>,
@@ -168,9 +174,9 @@ pub enum MeshError {
 
 fn degenerate_hint(measure: f64) -> &'static str {
     if measure < 0.0 {
-        "it is inverted\nhint: swap two of its nodes (triangles run counter-clockwise)"
+        "swap two of its nodes (triangles run counter-clockwise)"
     } else {
-        "it is flat\nhint: merge coinciding nodes or remesh there"
+        "merge coinciding nodes or remesh there"
     }
 }
 
@@ -189,7 +195,7 @@ mod tests {
     #[test]
     fn message_names_entity_place_and_remedy() {
         let error = MeshError::NotPositive { cell: 7, centroid: Place::from([0.25, 0.5]), measure: -1.25e-3 };
-        insta::assert_snapshot!(error, @r"
+        insta::assert_snapshot!(partita_testing::with_hint(&error), @r"
         cell 7 at (0.25, 0.5) m has measure -1.250e-3 m^2: it is inverted
         hint: swap two of its nodes (triangles run counter-clockwise)
         ");

@@ -44,10 +44,11 @@ pub struct Array<'a> {
 }
 
 /// Why an output file could not be written or read.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum VtuError {
     /// The file system takes no file there.
-    #[error("cannot write `{}`: {source}\nhint: check that the folder exists, may be written to, and is not full", path.display())]
+    #[error("cannot write `{}`: {source}", path.display())]
+    #[diagnostic(help("check that the folder exists, may be written to, and is not full"))]
     Write {
         /// The file.
         path: PathBuf,
@@ -55,7 +56,8 @@ pub enum VtuError {
         source: io::Error,
     },
     /// The file system gives no file from there.
-    #[error("cannot read `{}`: {source}\nhint: was it moved, or written by another run?", path.display())]
+    #[error("cannot read `{}`: {source}", path.display())]
+    #[diagnostic(help("was it moved, or written by another run?"))]
     Read {
         /// The file.
         path: PathBuf,
@@ -63,7 +65,8 @@ pub enum VtuError {
         source: io::Error,
     },
     /// A file that is no unstructured grid.
-    #[error("`{}` cannot be read as VTU: {reason}\nhint: it must have one piece with ASCII or zlib-compressed base64 arrays", path.display())]
+    #[error("`{}` cannot be read as VTU: {reason}", path.display())]
+    #[diagnostic(help("it must have one piece with ASCII or zlib-compressed base64 arrays"))]
     NotAGrid {
         /// The file.
         path: PathBuf,
@@ -71,7 +74,8 @@ pub enum VtuError {
         reason: String,
     },
     /// A collection that is not one.
-    #[error("`{}` is no collection of VTK files: {reason}\nhint: move the file away; the next run writes a new one", path.display())]
+    #[error("`{}` is no collection of VTK files: {reason}", path.display())]
+    #[diagnostic(help("move the file away; the next run writes a new one"))]
     NotACollection {
         /// The file.
         path: PathBuf,

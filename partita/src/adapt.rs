@@ -8,8 +8,7 @@ mod backflow;
 mod side;
 mod suspect;
 
-use std::error::Error;
-
+use miette::Diagnostic;
 use partita_coupling::port::total_len;
 use partita_coupling::{
     Block, Change, Effort, NewtonLimit, Participant, ParticipantError, PhaseTimes, SetupError, Step,
@@ -91,7 +90,7 @@ impl<F: Field> Adapter<F> {
 impl<F> Participant for Adapter<F>
 where
     F: Field,
-    F::Error: Error + From<StateMismatch> + Send + Sync + 'static,
+    F::Error: Diagnostic + From<StateMismatch> + Send + Sync + 'static,
 {
     fn name(&self) -> &str {
         F::NAME
@@ -244,9 +243,9 @@ fn details(now: FieldWork, then: FieldWork) -> WorkDetails {
 /// The field's error in its own words.
 fn field_error<F: Field>(error: &F::Error) -> ParticipantError
 where
-    F::Error: Error,
+    F::Error: Diagnostic,
 {
-    split_hint(F::NAME, &error.to_string())
+    participant_error(F::NAME, error)
 }
 
 /// A failed Newton loop: where the field itself failed inside, its words follow; otherwise the place of the largest
@@ -257,7 +256,7 @@ fn newton_error<F: Field>(
     suspect: Option<Suspect>,
 ) -> ParticipantError
 where
-    F::Error: Error,
+    F::Error: Diagnostic + 'static,
 {
     let mut error = match failure {
         Failure::Problem { iteration, source } => {
@@ -265,7 +264,7 @@ where
             error.message = format!("Newton iteration {iteration}: {}", error.message);
             return with_suspect(error, suspect);
         }
-        other => split_hint(F::NAME, &other.to_string()),
+        other => participant_error(F::NAME, other),
     };
     if let Some(largest) = field.largest_residual() {
         error.message = format!("{}; it is largest for {largest}", error.message);
@@ -302,15 +301,13 @@ fn with_suspect(mut error: ParticipantError, suspect: Option<Suspect>) -> Partic
     error
 }
 
-/// Messages of the fields may begin with their name, perhaps after the time, and end with a line `hint: ...`; the coupling
-/// says where and when, and keeps the hint apart.
-fn split_hint(field: &str, message: &str) -> ParticipantError {
+/// Messages of the fields may begin with their name, perhaps after the time; the coupling says where and when.
+fn participant_error(field: &str, error: &dyn Diagnostic) -> ParticipantError {
+    let message = error.to_string();
     let message = match message.split_once(&format!("{field}: ")) {
         Some((before, rest)) if before.is_empty() || before.starts_with("t = ") => rest,
-        _ => message,
+        _ => &message,
     };
-    match message.split_once("\nhint: ") {
-        Some((what, hint)) => ParticipantError::new(field, what).with_hint(hint),
-        None => ParticipantError::new(field, message),
-    }
+    let hint = error.help().map(|help| help.to_string());
+    ParticipantError { hint, ..ParticipantError::new(field, message) }
 }

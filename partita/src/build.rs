@@ -2,6 +2,7 @@
 
 pub(crate) mod interface;
 
+use miette::Diagnostic;
 use partita_coupling::SetupError;
 use partita_fluid::{FluidError, FluidSolver};
 use partita_structure::{MaterialError, Space, StructureError, StructureSolver};
@@ -17,22 +18,27 @@ use partita_mesh::Mesh;
 use partita_scene::{Resolved, models, schema};
 
 /// A scene that reads well but cannot be built.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Diagnostic)]
 pub enum BuildError {
     /// The fluid.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Fluid(#[from] FluidError),
     /// The structure's material.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Material(#[from] MaterialError),
     /// The structure.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Structure(#[from] StructureError),
     /// The coupling.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Coupling(#[from] SetupError),
     /// A field that is to be coupled has no interface.
-    #[error("{field}: it has no interface\nhint: {remedy}")]
+    #[error("{field}: it has no interface")]
+    #[diagnostic(help("{remedy}"))]
     NoInterface {
         /// The field.
         field: &'static str,
@@ -40,9 +46,8 @@ pub enum BuildError {
         remedy: &'static str,
     },
     /// There is no obvious way from the points of one participant to those of the other.
-    #[error(
-        "the interface of {first} has {first_values} values, that of {second} {second_values}\nhint: give the operator between them to `Run::couple_by`"
-    )]
+    #[error("the interface of {first} has {first_values} values, that of {second} {second_values}")]
+    #[diagnostic(help("give the operator between them to `Run::couple_by`"))]
     Unmatched {
         /// Name of the first participant.
         first: String,

@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use crate::output::Spent;
+use crate::clock::Spent;
 
 /// Name of the latest checkpoint in a run's folder.
 pub const LATEST: &str = "checkpoint.bin";
@@ -60,16 +60,20 @@ pub struct Checkpoint<T> {
 }
 
 /// Why a checkpoint cannot be written or read.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum CheckpointError {
     /// The folder holds none.
-    #[error("{dir}: no checkpoint\nhint: a run writes its first one after as many steps as `output.checkpoint_every` says; start it anew with `partita run` and --force", dir = dir.display())]
+    #[error("{dir}: no checkpoint", dir = dir.display())]
+    #[diagnostic(help(
+        "a run writes its first one after as many steps as `output.checkpoint_every` says; start it anew with `partita run` and --force"
+    ))]
     Missing {
         /// Folder of the run.
         dir: PathBuf,
     },
     /// The system refuses.
-    #[error("{path}: {source}\nhint: check the folder's permissions and the space left", path = path.display())]
+    #[error("{path}: {source}", path = path.display())]
+    #[diagnostic(help("check the folder's permissions and the space left"))]
     File {
         /// The file.
         path: PathBuf,
@@ -77,13 +81,15 @@ pub enum CheckpointError {
         source: io::Error,
     },
     /// The file is something else.
-    #[error("{path}: not a checkpoint of Partita\nhint: give the output folder of a run, not another file", path = path.display())]
+    #[error("{path}: not a checkpoint of Partita", path = path.display())]
+    #[diagnostic(help("give the output folder of a run, not another file"))]
     WrongMagic {
         /// The file.
         path: PathBuf,
     },
     /// Another version of Partita wrote it.
-    #[error("{path}: checkpoint of version {found}, this program reads version {VERSION}\nhint: resume with the program that wrote it", path = path.display())]
+    #[error("{path}: checkpoint of version {found}, this program reads version {VERSION}", path = path.display())]
+    #[diagnostic(help("resume with the program that wrote it"))]
     WrongVersion {
         /// The file.
         path: PathBuf,
@@ -91,7 +97,10 @@ pub enum CheckpointError {
         found: u32,
     },
     /// The file is shorter or longer than it says.
-    #[error("{path}: {found} bytes where {expected} are announced\nhint: the file was cut or changed after it was written; {PREVIOUS}, if whole, holds the one before", path = path.display())]
+    #[error("{path}: {found} bytes where {expected} are announced", path = path.display())]
+    #[diagnostic(help(
+        "the file was cut or changed after it was written; {PREVIOUS}, if whole, holds the one before"
+    ))]
     WrongLength {
         /// The file.
         path: PathBuf,
@@ -101,7 +110,10 @@ pub enum CheckpointError {
         found: u64,
     },
     /// Bytes have changed since the file was written.
-    #[error("{path}: checksum {found:08x} where {expected:08x} was written\nhint: the file was cut or changed after it was written; {PREVIOUS}, if whole, holds the one before", path = path.display())]
+    #[error("{path}: checksum {found:08x} where {expected:08x} was written", path = path.display())]
+    #[diagnostic(help(
+        "the file was cut or changed after it was written; {PREVIOUS}, if whole, holds the one before"
+    ))]
     WrongChecksum {
         /// The file.
         path: PathBuf,
@@ -111,7 +123,8 @@ pub enum CheckpointError {
         found: u32,
     },
     /// The bytes are whole but are no state of this kind.
-    #[error("{path}: not a state of this run: {source}\nhint: the checkpoint belongs to another scene or program", path = path.display())]
+    #[error("{path}: not a state of this run: {source}", path = path.display())]
+    #[diagnostic(help("the checkpoint belongs to another scene or program"))]
     Decode {
         /// The file.
         path: PathBuf,
@@ -119,7 +132,8 @@ pub enum CheckpointError {
         source: postcard::Error,
     },
     /// The state cannot be written.
-    #[error("the state cannot be encoded: {source}\nhint: this is an error of the program; please report it")]
+    #[error("the state cannot be encoded: {source}")]
+    #[diagnostic(help("this is an error of the program; please report it"))]
     Encode {
         /// What the encoder says.
         source: postcard::Error,

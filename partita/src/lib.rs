@@ -4,6 +4,7 @@ pub mod adapt;
 pub mod build;
 pub mod check;
 pub mod checkpoint;
+mod clock;
 mod couple;
 mod draw;
 pub mod lock;

@@ -1,5 +1,6 @@
 //! The run of a scene in its folder, from its first step, or its checkpoint, to its end.
 
+use miette::Diagnostic;
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -96,7 +97,8 @@ impl<'a> Session<'a> {
         run.resume_folder(dir, &checkpoint.stamp, clock)?;
         let step = checkpoint.stamp.step;
         let note = checkpoint.latest_unusable.map(|error| {
-            format!("the latest checkpoint is not usable, the run goes on after step {step}\n{error}")
+            let hint = error.help().map_or_else(String::new, |help| format!("\nhint: {help}"));
+            format!("the latest checkpoint is not usable, the run goes on after step {step}\n{error}{hint}")
         });
         Ok(Self { run, scene: &resolved.scene, options, note })
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use partita::output::{self, Ending, Seconds, Summary};
 use partita::scene::{self, Resolved};
 use partita_coupling::Record;
-use partita_numerics::field::Field as _;
+use partita_numerics::Field;
 use serde::{Deserialize, Serialize};
 
 use crate::csv::Csv;
@@ -72,13 +72,9 @@ impl<'a> Run<'a> {
     /// The unknowns of both fields.
     pub(crate) fn unknowns(&self, root: &Path) -> Result<usize, TaskError> {
         let failed = |error| TaskError::Failed(format!("{}: {error}", self.name));
-        let run = partita::build::run(&self.resolved(root)?).map_err(failed)?;
-        let fluid = run.first().field().map(|fluid| fluid.parts().iter().map(|part| part.dofs.len()).sum());
-        let structure = run
-            .second()
-            .field()
-            .map(|structure| structure.parts().iter().map(|part| part.dofs.len()).sum::<usize>());
-        Ok(fluid.unwrap_or(0) + structure.unwrap_or(0))
+        let march = partita::build::march(&self.resolved(root)?).map_err(failed)?;
+        let fluid = march.first().field().map_or(0, Field::unknowns);
+        Ok(fluid + march.second().field().map_or(0, Field::unknowns))
     }
 
     /// Does the run and leaves its files in `out`. What was begun there before is taken up at its checkpoint, or begun again.

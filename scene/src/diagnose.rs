@@ -6,8 +6,8 @@ use std::ops::Range;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use thiserror::Error;
 
-use super::document::Sources;
 use super::finding::Finding;
+use super::sources::Sources;
 
 /// Why a scene cannot be run. Nothing has been written when it is returned.
 #[derive(Debug, Error)]

@@ -1,9 +1,10 @@
 //! What is wrong with a scene, before it is known which text it stands in.
 
-use std::fmt;
 use std::ops::Range;
 
-use super::document::Sources;
+use miette::Diagnostic;
+
+use super::sources::Sources;
 
 /// One thing that is wrong, where, and how to mend it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -18,11 +19,16 @@ impl Finding {
         Self { what: what.into(), marks: Vec::new(), hint: String::new() }
     }
 
-    /// The message of a library: what, and then a line `hint: ...`.
-    pub(super) fn of(error: &impl fmt::Display) -> Self {
-        let text = error.to_string();
-        let (what, hint) = text.split_once("\nhint: ").unwrap_or((&text, ""));
-        Self::new(what).hint(hint)
+    /// The error of a library, with its remedy.
+    pub(super) fn of(error: &impl Diagnostic) -> Self {
+        let hint = error.help().map(|help| help.to_string());
+        Self::new(error.to_string()).hint(hint.unwrap_or_default())
+    }
+
+    /// Says before everything else where this was found.
+    pub(super) fn led_by(mut self, place: &str) -> Self {
+        self.what.insert_str(0, place);
+        self
     }
 
     /// Points at a place. The first mark decides which text is shown.

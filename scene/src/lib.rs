@@ -3,6 +3,7 @@
 //! [`load`] reads a file and the overrides of the command line into a [`Scene`](schema::Scene) whose values are in range and
 //! fit together, or returns a [`SceneError`] that shows the line, the place and how to mend it.
 
+mod check;
 mod diagnose;
 mod document;
 pub mod expression;
@@ -18,6 +19,7 @@ mod repair;
 mod resolve;
 pub mod schema;
 mod shapes;
+mod sources;
 pub mod spelling;
 mod translate;
 mod validate;

@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
-use super::document::{Document, Sources};
+use super::document::Document;
+use super::sources::Sources;
 
 /// The file and line, or the override, of every key that is spelt out.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -41,10 +41,15 @@ pub(super) fn homes_of(key: &str) -> Vec<String> {
     homes
 }
 
+/// A table as a scene writes it.
+pub(super) fn table(path: &[String]) -> String {
+    if path.is_empty() { "the scene".to_owned() } else { format!("[{}]", path.join(".")) }
+}
+
 fn search(node: &'static Value, key: &str, path: &mut Vec<String>, homes: &mut Vec<String>) {
     let node = resolved(node);
     if object(node, "properties").any(|(name, _)| name == key) {
-        homes.push(super::translate::table(path));
+        homes.push(table(path));
     }
     let named = object(node, "properties").map(|(name, inner)| (name.as_str(), inner));
     let any_name = node.get("additionalProperties").map(|inner| ("*", inner));

@@ -8,15 +8,17 @@ use serde::Deserialize;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
+use super::check::Check;
 use super::diagnose::SceneError;
-use super::document::{Document, Sources};
+use super::document::{self, Document};
 use super::finding::Finding;
 use super::overrides::Override;
 use super::places::Places;
 use super::schema::{Count, Output, Scene, Warnings};
 use super::shapes::{self, Shapes};
+use super::sources::Sources;
 use super::translate::translate;
-use super::validate::{Check, validate, validate_shapes};
+use super::validate::{validate, validate_shapes};
 use super::write;
 use crate::file_kind::FileKind;
 
@@ -129,7 +131,7 @@ fn resolve<T>(
 /// Everything that can be checked without another file. Where the scene as a whole can still be judged in spite of single
 /// mistakes, what does not fit together is found with them.
 fn check(sources: &Sources) -> Result<(Scene, Document<'_>), Vec<Finding>> {
-    let document = sources.merge().map_err(|finding| vec![finding])?;
+    let document = document::merge(sources).map_err(|finding| vec![finding])?;
     let Reading { scene, findings, is_whole } = read(&document, sources);
     let mut all = Check::new(&document);
     if let Some(scene) = scene.as_ref().filter(|_| is_whole) {

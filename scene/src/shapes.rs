@@ -10,8 +10,8 @@ use std::path::Path;
 use partita_mesh::Mesh;
 use partita_structure::Space;
 
+use super::check::Check;
 use super::schema::{FileName, FluidMesh, Geometry, Scene};
-use super::validate::Check;
 
 pub use content::{Content, Role};
 pub use read::Input;

@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
-use super::document::{Document, Sources};
+use super::document::Document;
 use super::finding::Finding;
 use super::repair::Repair;
+use super::sources::Sources;
 use super::{reference, schema};
 use crate::expression::Expression;
 use crate::spelling::nearest;
@@ -59,7 +60,7 @@ impl Context<'_> {
     fn unknown_key(self, key: &str, known: &[&str]) -> (Finding, Repair) {
         let near = nearest(key, known.iter().copied());
         let repair = Repair::Rename { path: self.path.clone(), to: near.map(str::to_owned) };
-        let table = table(self.path.split_last().map_or(&[], |(_, parents)| parents));
+        let table = reference::table(self.path.split_last().map_or(&[], |(_, parents)| parents));
         let homes = reference::homes_of(key);
         let hint = match near {
             Some(near) => format!("did you mean `{near}`?"),
@@ -94,7 +95,7 @@ impl Context<'_> {
         } else {
             format!("choose `{name}`, it has no default: {}", choices.join(", "))
         };
-        let finding = Finding::new(format!("{} lacks `{key}`", table(&self.path)))
+        let finding = Finding::new(format!("{} lacks `{key}`", reference::table(&self.path)))
             .mark(self.place, format!("`{key}` is missing here"))
             .hint(explained(set, &path));
         (finding, Repair::Replace { path })
@@ -157,11 +158,6 @@ impl Context<'_> {
             "an expression may use x, y [m], t [s], pi, + - * / ^ and functions such as sin, exp, sqrt, min";
         Some((start + error.place.start..start + error.place.end, hint))
     }
-}
-
-/// A table as a scene writes it.
-pub(super) fn table(path: &[String]) -> String {
-    if path.is_empty() { "the scene".to_owned() } else { format!("[{}]", path.join(".")) }
 }
 
 /// A hint, and below it what the key means.

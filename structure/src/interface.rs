@@ -2,24 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use partita_iga::transfer::Weights;
 use partita_mesh::solid;
 
 use crate::boundary::Boundary;
 use crate::error::StructureError;
 use crate::solver::StructureSolver;
 use crate::space::Space;
-
-/// One row of `H`: the displacement of a point is `sum_a weights_a d_a` over the nodes, and its force goes to them with the
-/// same weights.
-#[derive(Debug, Clone, PartialEq)]
-pub struct InterfaceRow {
-    /// Nodes of the structure with a weight other than zero, clamped ones among them.
-    pub nodes: Vec<usize>,
-    /// Their shape functions at the point's projection; the sum is one.
-    pub weights: Vec<f64>,
-    /// Distance between the point and its projection `[m]`.
-    pub distance: f64,
-}
 
 /// A line between two points on the interface, and points along it `[m]`.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +22,10 @@ pub struct Segment<const D: usize> {
 impl<const D: usize> StructureSolver<D> {
     /// Ties points `[m]` to the wetted parts of the undeformed structure, each to the closest place there.
     ///
+    /// Returns the row of `H` of each point: the nodes with a weight other than zero, clamped ones among them, and their
+    /// weights. The displacement of the point is `sum_a weight_a d_a`, its force goes to the nodes with the same weights, and
+    /// the weights sum to one.
+    ///
     /// The operator between interface points takes the columns of the nodes that
     /// [`interface_points`](Self::interface_points) lists; the others do not move at all. See
     /// [`partita_iga::transfer`] for patches and [`partita_mesh::solid::transfer`] for meshes.
@@ -43,11 +36,13 @@ impl<const D: usize> StructureSolver<D> {
         &self,
         points: &[[f64; D]],
         tolerance: f64,
-    ) -> Result<Vec<InterfaceRow>, StructureError> {
-        rows(&self.space, &self.model.wetted, points, tolerance)
+    ) -> Result<Vec<Weights>, StructureError> {
+        let rows = rows(&self.space, &self.model.wetted, points, tolerance)?;
+        Ok(rows.into_iter().map(|row| row.weights).collect())
     }
 
-    /// Ties the points of segments to the wetted parts, each to the closest place there, however far away it is.
+    /// Ties the points of segments to the wetted parts, each to the closest place there, however far away it is: the rows of
+    /// the points of each segment.
     ///
     /// Only those parts count that both ends of a segment touch (within `tolerance` `[m]`), where there are any: on a thin
     /// curved structure the middle of a chord may be closer to the opposite side.
@@ -58,7 +53,7 @@ impl<const D: usize> StructureSolver<D> {
         &self,
         segments: &[Segment<D>],
         tolerance: f64,
-    ) -> Result<Vec<Vec<InterfaceRow>>, StructureError> {
+    ) -> Result<Vec<Vec<Weights>>, StructureError> {
         let wetted = &self.model.wetted;
         let ends: Vec<[f64; D]> = segments.iter().flat_map(|segment| segment.ends).collect();
         let mut parts_of: Vec<Vec<usize>> = vec![Vec::new(); segments.len()];
@@ -79,7 +74,8 @@ impl<const D: usize> StructureSolver<D> {
             let parts = if parts.is_empty() { wetted.clone() } else { wetted.only(&parts) };
             let points: Vec<[f64; D]> =
                 members.iter().flat_map(|&segment| &segments[segment].points).copied().collect();
-            let mut rows = rows(&self.space, &parts, &points, f64::INFINITY)?.into_iter();
+            let rows = rows(&self.space, &parts, &points, f64::INFINITY)?;
+            let mut rows = rows.into_iter().map(|row| row.weights);
             for segment in members {
                 of_segments[segment] = rows.by_ref().take(segments[segment].points.len()).collect();
             }
@@ -88,30 +84,30 @@ impl<const D: usize> StructureSolver<D> {
     }
 }
 
+/// The row of a point, and its distance from its projection `[m]`.
+struct Tied {
+    weights: Weights,
+    distance: f64,
+}
+
 /// The rows of points on some parts of the boundary of a space.
 fn rows<const D: usize>(
     space: &Space<D>,
     parts: &Boundary,
     points: &[[f64; D]],
     tolerance: f64,
-) -> Result<Vec<InterfaceRow>, StructureError> {
+) -> Result<Vec<Tied>, StructureError> {
     match (space, parts) {
         (Space::Patch(patch), Boundary::Sides(sides)) => {
             let rows = partita_iga::transfer::rows(patch.spline(), sides, points, tolerance)?;
-            let row = |row: partita_iga::transfer::Row| {
-                let (nodes, weights) = patch.merged(&row.control_points, row.weights);
-                InterfaceRow { nodes, weights, distance: row.distance }
-            };
-            Ok(rows.into_iter().map(row).collect())
+            let tied = rows
+                .into_iter()
+                .map(|row| Tied { weights: patch.merged(row.weights), distance: row.distance });
+            Ok(tied.collect())
         }
         (Space::Lagrange(mesh), Boundary::Groups(groups)) => {
             let rows = solid::transfer::rows(mesh, groups, points, tolerance)?;
-            let row = |row: solid::transfer::Row| InterfaceRow {
-                nodes: row.nodes,
-                weights: row.weights,
-                distance: row.distance,
-            };
-            Ok(rows.into_iter().map(row).collect())
+            Ok(rows.into_iter().map(|row| Tied { weights: row.weights, distance: row.distance }).collect())
         }
         // The solver was built, so that a list of the other kind is empty.
         (Space::Patch(_), Boundary::Groups(_)) => Err(partita_iga::transfer::TransferError::NoSides.into()),

@@ -24,7 +24,8 @@
 //! the interface `point * D + c`, in the order of [`StructureSolver::interface_points`]. Units are SI; in the plane, forces and energies are per metre
 //! of depth.
 
-pub mod boundary;
+pub mod body_force;
+mod boundary;
 pub mod conformance;
 pub mod elements;
 pub mod error;
@@ -50,10 +51,10 @@ mod probe;
 mod tensor;
 mod wetted;
 
+pub use body_force::{BodyForce, VectorField};
 pub use boundary::Boundary;
 pub use error::StructureError;
-pub use interface::{InterfaceRow, Segment};
-pub use load::{BodyForce, VectorField};
+pub use interface::Segment;
 pub use material::{
     AnyMaterial, Constitutive, Law, Material, MaterialError, Plane, PlaneStrain, PlaneStress, Response,
     ResponseError,

@@ -37,19 +37,21 @@ pub enum Plane {
 }
 
 /// A parameter of a material that no solid can have.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum MaterialError {
     /// Young's modulus is not a positive number.
-    #[error("Young's modulus is {value} Pa\nhint: it must be positive and finite")]
+    #[error("Young's modulus is {value} Pa")]
+    #[diagnostic(help("it must be positive and finite"))]
     YoungModulus {
         /// The value given `[Pa]`.
         value: f64,
     },
     /// Poisson's ratio is outside the range in which the elastic energy is positive.
-    #[error(
-        "Poisson's ratio is {value}\nhint: it must be above -1 and below 0.5; at 0.5 the solid is \
+    #[error("Poisson's ratio is {value}")]
+    #[diagnostic(help(
+        "it must be above -1 and below 0.5; at 0.5 the solid is \
          incompressible, which this displacement formulation can only approach (0.499)"
-    )]
+    ))]
     PoissonRatio {
         /// The value given.
         value: f64,

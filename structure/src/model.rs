@@ -2,9 +2,9 @@
 
 use partita_numerics::newton;
 
+use crate::body_force::BodyForce;
 use crate::boundary::Boundary;
 use crate::error::StructureError;
-use crate::load::BodyForce;
 use crate::material::{AnyMaterial, Plane};
 use crate::step::TimeScheme;
 use crate::support::Held;

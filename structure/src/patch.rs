@@ -1,6 +1,7 @@
 //! A spline patch as a space: its control points are the nodes, one node where a seam closes it.
 
 use partita_iga::seam::Seams;
+use partita_iga::transfer::Weights;
 use partita_iga::{BasisValues, Derivatives, Side, Spline};
 
 use crate::error::StructureError;
@@ -88,21 +89,22 @@ impl<const D: usize> Patch<D> {
         value
     }
 
-    /// Nodes and weights of a point that hangs on control points, each node once.
-    pub(crate) fn merged(&self, control_points: &[usize], weights: Vec<f64>) -> (Vec<usize>, Vec<f64>) {
-        let nodes = self.nodes_of(control_points);
+    /// The weights of nodes from those of control points, each node once.
+    pub(crate) fn merged(&self, mut weights: Weights) -> Weights {
         if self.seams.is_empty() {
-            return (nodes, weights);
+            return weights;
         }
-        let mut entries: Vec<(usize, f64)> = nodes.into_iter().zip(weights).collect();
-        entries.sort_by_key(|(node, _)| *node);
-        entries.dedup_by(|later, first| {
+        for (a, _) in &mut weights {
+            *a = self.seams.nodes()[*a];
+        }
+        weights.sort_by_key(|(node, _)| *node);
+        weights.dedup_by(|later, first| {
             let same = later.0 == first.0;
             if same {
                 first.1 += later.1;
             }
             same
         });
-        entries.into_iter().unzip()
+        weights
     }
 }

@@ -1,16 +1,17 @@
 //! What a field says when it cannot go on.
 
 use std::error::Error;
-use std::fmt;
 
 /// A field could not be advanced.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[error("{field}: {message}")]
 pub struct ParticipantError {
     /// The field's name.
     pub field: String,
     /// What happened and where, with units.
     pub message: String,
     /// What to try.
+    #[help]
     pub hint: Option<String>,
     /// The field's own error.
     pub source: Option<Box<dyn Error + Send + Sync>>,
@@ -45,21 +46,5 @@ impl ParticipantError {
     pub fn with_source(mut self, source: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
         self.source = Some(source.into());
         self
-    }
-}
-
-impl fmt::Display for ParticipantError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.field, self.message)?;
-        match &self.hint {
-            Some(hint) => write!(f, "\nhint: {hint}"),
-            None => Ok(()),
-        }
-    }
-}
-
-impl Error for ParticipantError {
-    fn source(&self) -> Option<&(dyn Error + 'static)> {
-        self.source.as_deref().map(|source| source as &(dyn Error + 'static))
     }
 }

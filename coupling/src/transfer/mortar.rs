@@ -53,9 +53,6 @@ const REACH: f64 = 0.5;
 /// Weights this small are round-off beside a sum of one.
 const NO_WEIGHT: f64 = 1e-15;
 
-/// One row of `H`: points of the second field and their weights.
-pub type Row = Vec<(usize, f64)>;
-
 /// The facets of the first field's interface in a plane: lines between its points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mortar<const D: usize> {
@@ -148,12 +145,17 @@ impl<const D: usize> Mortar<D> {
     }
 
     /// The rows of `H`, from the interpolation `R_a` at every point (`nodal`) and at every quadrature point (`sampled`, in the
-    /// order of `samples`).
+    /// order of `samples`). A row is a list of points of the second field and their weights.
     ///
     /// # Panics
     /// When there is not one row per point or per quadrature point.
     #[must_use]
-    pub fn rows(&self, nodal: Vec<Row>, samples: &[Samples<D>], sampled: &[Vec<Row>]) -> Vec<Row> {
+    pub fn rows(
+        &self,
+        nodal: Vec<Vec<(usize, f64)>>,
+        samples: &[Samples<D>],
+        sampled: &[Vec<Vec<(usize, f64)>>],
+    ) -> Vec<Vec<(usize, f64)>> {
         assert_eq!(nodal.len(), self.points.len(), "one row per point");
         assert!(samples.len() == self.facets.len() && sampled.len() == self.facets.len(), "rows per facet");
         let mut sums: Vec<BTreeMap<usize, f64>> = vec![BTreeMap::new(); self.points.len()];
@@ -195,7 +197,7 @@ impl<const D: usize> Mortar<D> {
 }
 
 /// Adds a multiple of a row.
-fn add(sum: &mut BTreeMap<usize, f64>, factor: f64, row: &Row) {
+fn add(sum: &mut BTreeMap<usize, f64>, factor: f64, row: &[(usize, f64)]) {
     if factor != 0.0 {
         for &(a, weight) in row {
             *sum.entry(a).or_default() += factor * weight;

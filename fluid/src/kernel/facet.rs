@@ -7,7 +7,7 @@ use partita_numerics::small::dot;
 
 use super::element::Element;
 use super::terms::{Term, Terms};
-use crate::settings::Tangent;
+use crate::flow::Tangent;
 
 /// A facet of an element, its additions to the residual and, where wanted, to the tangent (row-major,
 /// N (D + 1) square).

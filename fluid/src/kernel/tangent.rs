@@ -8,7 +8,7 @@ use partita_numerics::lanes::{Real, sum};
 use partita_numerics::small::dot;
 
 use super::element::Element;
-use crate::settings::Tangent;
+use crate::flow::Tangent;
 
 impl<const D: usize, const N: usize, R: Real> Element<D, N, R> {
     /// The derivative of [`residual`](Element::residual) with respect to the nodal velocities and pressures,

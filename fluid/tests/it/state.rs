@@ -6,6 +6,7 @@ use partita_fluid::{
 };
 use partita_mesh::motion::{MotionMode, MotionSettings};
 use partita_numerics::newton::Limit;
+use partita_testing::with_hint;
 
 use crate::common::*;
 
@@ -124,7 +125,7 @@ fn state_of_another_mesh_is_refused() {
     let mut state = fluid.state().clone();
     state.values.pop();
     let error = fluid.restore(&state).expect_err("a state that does not fit");
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     fluid: the saved state has 122 values, the field has 123
     hint: states fit only the mesh they were saved from
     ");

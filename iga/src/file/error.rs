@@ -2,13 +2,14 @@
 
 use std::ops::Range;
 
-use super::{FORMAT, VERSION};
+use super::format::{FORMAT, KEYS, VERSION};
 use crate::knots::KnotError;
 use crate::spline::{MAX_PARAMETERS, SplineError};
 
 /// A fault in the text of a spline's file, and its place.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 #[error("line {line}, {fault}")]
+#[diagnostic(forward(fault))]
 pub struct FileError {
     line: usize,
     span: Range<usize>,
@@ -42,33 +43,35 @@ impl FileError {
 }
 
 /// What is wrong with the text of a spline's file.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum Fault {
     /// The text is not TOML.
-    #[error(
-        "not TOML: {message}\nhint: a spline file consists of `key = value`, values are numbers or [lists]"
-    )]
+    #[error("not TOML: {message}")]
+    #[diagnostic(help("a spline file consists of `key = value`, values are numbers or [lists]"))]
     Toml {
         /// What the parser says.
         message: String,
     },
     /// Another kind of file.
-    #[error("`format` is \"{found}\"\nhint: the format of a spline file is \"{FORMAT}\"")]
+    #[error("`format` is \"{found}\"")]
+    #[diagnostic(help("the format of a spline file is \"{FORMAT}\""))]
     Format {
         /// The format named.
         found: String,
     },
     /// A version of the format that is not known.
-    #[error("`version` is {found}\nhint: this program reads version {VERSION}")]
+    #[error("`version` is {found}")]
+    #[diagnostic(help("this program reads version {VERSION}"))]
     Version {
         /// The version named.
         found: usize,
     },
     /// A key that does not belong there.
-    #[error("`{key}` is not a key of a spline file\nhint: {}", match nearest {
+    #[error("`{key}` is not a key of a spline file")]
+    #[diagnostic(help("{}", match nearest {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("keys are {}", super::read::KEYS.join(", ")),
-    })]
+        None => format!("keys are {}", KEYS.join(", ")),
+    }))]
     UnknownKey {
         /// The key found.
         key: String,
@@ -76,7 +79,8 @@ pub enum Fault {
         nearest: Option<&'static str>,
     },
     /// A key that must stand in every file.
-    #[error("the file ends without `{key}`\nhint: add `{key} = {example}`")]
+    #[error("the file ends without `{key}`")]
+    #[diagnostic(help("add `{key} = {example}`"))]
     MissingKey {
         /// The key.
         key: &'static str,
@@ -84,7 +88,8 @@ pub enum Fault {
         example: &'static str,
     },
     /// A value of another type.
-    #[error("{path}: {found} stands where {wanted} should\nhint: give {wanted}")]
+    #[error("{path}: {found} stands where {wanted} should")]
+    #[diagnostic(help("give {wanted}"))]
     Kind {
         /// Key and index, like `knots[0][3]`.
         path: String,
@@ -94,10 +99,8 @@ pub enum Fault {
         found: String,
     },
     /// The file holds a spline in another dimension.
-    #[error(
-        "a spline in {found} dimensions, where one in {wanted} is needed\n\
-         hint: take a file with `dimension = {wanted}` and {wanted} coordinates a control point"
-    )]
+    #[error("a spline in {found} dimensions, where one in {wanted} is needed")]
+    #[diagnostic(help("take a file with `dimension = {wanted}` and {wanted} coordinates a control point"))]
     Dimension {
         /// Dimension of the file.
         found: usize,
@@ -105,13 +108,15 @@ pub enum Fault {
         wanted: usize,
     },
     /// More than [`MAX_PARAMETERS`] degrees.
-    #[error("degrees: {found} parameters are too many\nhint: a spline has up to {MAX_PARAMETERS}")]
+    #[error("degrees: {found} parameters are too many")]
+    #[diagnostic(help("a spline has up to {MAX_PARAMETERS}"))]
     TooManyParameters {
         /// Number of degrees.
         found: usize,
     },
     /// Not one knot vector for each degree.
-    #[error("knots: {found} knot vectors for {needed} degrees\nhint: give one list of knots for each degree")]
+    #[error("knots: {found} knot vectors for {needed} degrees")]
+    #[diagnostic(help("give one list of knots for each degree"))]
     KnotVectors {
         /// Number of knot vectors.
         found: usize,
@@ -123,6 +128,7 @@ pub enum Fault {
         KnotError::DegreeZero => "degrees",
         _ => "knots",
     })]
+    #[diagnostic(forward(error))]
     Knots {
         /// Which parameter it belongs to, from 0.
         parameter: usize,
@@ -130,9 +136,8 @@ pub enum Fault {
         error: KnotError,
     },
     /// A control point with too few or too many coordinates.
-    #[error(
-        "control_points[{index}]: {found} coordinates\nhint: with `dimension = {needed}` a point has {needed}"
-    )]
+    #[error("control_points[{index}]: {found} coordinates")]
+    #[diagnostic(help("with `dimension = {needed}` a point has {needed}"))]
     Components {
         /// Index of the control point.
         index: usize,
@@ -143,6 +148,7 @@ pub enum Fault {
     },
     /// Control points or weights that do not fit.
     #[error("{key}: {error}")]
+    #[diagnostic(forward(error))]
     Spline {
         /// `control_points` or `weights`.
         key: &'static str,

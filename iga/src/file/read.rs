@@ -6,24 +6,10 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 use super::error::{Fault, FileError};
-use super::{FORMAT, VERSION};
+use super::format::{EXAMPLES, FORMAT, KEYS, VERSION};
 use crate::knots::{KnotError, Knots};
 use crate::nearest::nearest;
 use crate::spline::{MAX_PARAMETERS, Spline, SplineError};
-
-/// Keys of a file.
-pub(super) const KEYS: [&str; 7] =
-    ["format", "version", "dimension", "degrees", "knots", "control_points", "weights"];
-/// What could stand at each of them.
-const EXAMPLES: [&str; 7] = [
-    "\"partita-spline\"",
-    "1",
-    "2",
-    "[2, 2], one for each parameter",
-    "[[...], [...]], one list for each parameter",
-    "[[x, y], ...], along the first parameter first",
-    "[...], one for each control point",
-];
 
 type Value<'a> = Spanned<DeValue<'a>>;
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{FORMAT, VERSION};
+use super::format::{FORMAT, VERSION};
 use crate::spline::Spline;
 
 pub(super) fn spline<const D: usize>(spline: &Spline<D>) -> String {

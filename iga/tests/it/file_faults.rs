@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use partita_iga::file::{self, Fault, FileError};
 use partita_iga::{KnotError, SplineError};
+use partita_testing::with_hint;
 
 use crate::file::RING;
 
@@ -20,7 +21,7 @@ fn messages(faults: &[(&str, &str, &str)]) -> String {
     let mut messages = String::new();
     for (name, from, to) in faults {
         let (text, error) = broken(name, from, to);
-        let message = error.to_string();
+        let message = with_hint(&error);
         let lines: Vec<&str> = message.lines().collect();
         assert!(lines.len() == 2 && lines[1].starts_with("hint: "), "{name}: {message}");
         assert!(lines[0].starts_with(&format!("line {}, ", error.line())), "{name}: {message}");

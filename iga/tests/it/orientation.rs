@@ -1,5 +1,6 @@
 //! Patches that are mirrored, folded or flat are refused, at their place.
 
+use miette::Diagnostic;
 use partita_iga::orientation::{self, OrientationError};
 use partita_iga::{Spline, build};
 use proptest::prelude::*;
@@ -46,10 +47,7 @@ fn a_mirrored_patch_is_told_from_a_folded_one() {
     assert!((4..7).contains(&at.element), "{at:?}");
     assert!((0.5..1.0).contains(&at.parameters[1]) && at.parameters[0] < 0.75, "{at:?}");
     let message = error.to_string();
-    assert!(
-        message.contains(&format!("element {} at", at.element)) && message.contains("\nhint: "),
-        "{message}"
-    );
+    assert!(message.contains(&format!("element {} at", at.element)) && error.help().is_some(), "{message}");
 }
 
 #[test]

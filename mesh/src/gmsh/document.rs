@@ -1,10 +1,6 @@
 //! What a gmsh file holds, independent of its version and encoding.
 
-use std::path::Path;
-
 use super::element::ElementKind;
-use super::error::{ParseError, ReadError};
-use super::parser;
 
 /// A gmsh file: nodes, elements and the names of physical groups.
 ///
@@ -48,23 +44,6 @@ pub struct GroupName {
 }
 
 impl GmshFile {
-    /// Reads the contents of a file.
-    ///
-    /// # Errors
-    /// [`ParseError`] names the line (text) or byte (binary), the section, what is wrong and a remedy.
-    pub fn parse(bytes: &[u8]) -> Result<Self, ParseError> {
-        parser::parse(bytes)
-    }
-
-    /// Reads a file.
-    ///
-    /// # Errors
-    /// [`ReadError`] when the file cannot be opened or is no complete mesh of format 2.0 to 2.2 or 4.1.
-    pub fn read(path: &Path) -> Result<Self, ReadError> {
-        let bytes = std::fs::read(path).map_err(|source| ReadError::File { path: path.into(), source })?;
-        Self::parse(&bytes).map_err(|source| ReadError::Content { path: path.into(), source })
-    }
-
     /// What a physical group is called: its name, or `group-<tag>` when the file gives none.
     #[must_use]
     pub fn group_name(&self, dimension: usize, tag: u64) -> String {

@@ -27,10 +27,11 @@ impl fmt::Display for Position {
 }
 
 /// Why a file on disk could not be read.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum ReadError {
     /// The file itself.
-    #[error("cannot read {}: {source}\nhint: check the path and its permissions", path.display())]
+    #[error("cannot read {}: {source}", path.display())]
+    #[diagnostic(help("check the path and its permissions"))]
     File {
         /// The file.
         path: PathBuf,
@@ -39,6 +40,7 @@ pub enum ReadError {
     },
     /// What is in it.
     #[error("{}, {source}", path.display())]
+    #[diagnostic(forward(source))]
     Content {
         /// The file.
         path: PathBuf,
@@ -48,14 +50,15 @@ pub enum ReadError {
 }
 
 /// A fault in a gmsh file and its place.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, miette::Diagnostic)]
 #[error("{position}{}: {fault}", place_in(section.as_ref()))]
+#[diagnostic(forward(fault))]
 pub struct ParseError {
     /// Where the value is that cannot be accepted.
     pub position: Position,
     /// The section it is in, without `$`; `None` between sections.
     pub section: Option<String>,
-    /// What is wrong, and a hint.
+    /// What is wrong.
     pub fault: Fault,
 }
 
@@ -64,10 +67,11 @@ fn place_in(section: Option<&String>) -> String {
 }
 
 /// Why the content of a gmsh file does not make a mesh of straight simplices, or of a solid.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum ConvertError {
     /// No cells of the dimension.
-    #[error("the file has no {kind}s, which a mesh in {dimension} dimensions needs\nhint: {}", no_cells_hint(*largest, *dimension))]
+    #[error("the file has no {kind}s, which a mesh in {dimension} dimensions needs")]
+    #[diagnostic(help("{}", no_cells_hint(*largest, *dimension)))]
     NoCells {
         /// What a cell would be.
         kind: ElementKind,
@@ -77,9 +81,8 @@ pub enum ConvertError {
         largest: Option<usize>,
     },
     /// Elements of a dimension more than the mesh.
-    #[error(
-        "the file has {kind}s ({count}), so it is no mesh in {dimension} dimensions\nhint: save the mesh of the surface only"
-    )]
+    #[error("the file has {kind}s ({count}), so it is no mesh in {dimension} dimensions")]
+    #[diagnostic(help("save the mesh of the surface only"))]
     TooManyDimensions {
         /// The elements.
         kind: ElementKind,
@@ -89,7 +92,8 @@ pub enum ConvertError {
         dimension: usize,
     },
     /// Curved elements or quadrilaterals.
-    #[error("the {kind}s of the file ({count}) cannot be used, only {wanted}s\nhint: {}", kind_hint(*kind))]
+    #[error("the {kind}s of the file ({count}) cannot be used, only {wanted}s")]
+    #[diagnostic(help("{}", kind_hint(*kind)))]
     UnsupportedKind {
         /// The elements.
         kind: ElementKind,
@@ -99,15 +103,19 @@ pub enum ConvertError {
         wanted: ElementKind,
     },
     /// No triangles or quadrilaterals for a solid.
-    #[error("the file has no triangles or quadrilaterals, which a plane solid consists of\nhint: {}", no_cells_hint(*largest, 2))]
+    #[error("the file has no triangles or quadrilaterals, which a plane solid consists of")]
+    #[diagnostic(help("{}", no_cells_hint(*largest, 2)))]
     NoSolid {
         /// Largest dimension of the file's elements, if it has any.
         largest: Option<usize>,
     },
     /// Cells of several kinds in one solid.
     #[error(
-        "the file mixes {first}s ({first_count}) and {second}s ({second_count}), a solid takes cells of one kind\nhint: drop `Recombine Surface`, or let it leave no triangles: Mesh.RecombinationAlgorithm = 3"
+        "the file mixes {first}s ({first_count}) and {second}s ({second_count}), a solid takes cells of one kind"
     )]
+    #[diagnostic(help(
+        "drop `Recombine Surface`, or let it leave no triangles: Mesh.RecombinationAlgorithm = 3"
+    ))]
     MixedKinds {
         /// A kind.
         first: ElementKind,
@@ -119,9 +127,10 @@ pub enum ConvertError {
         second_count: usize,
     },
     /// Boundary elements that are not edges of the cells.
-    #[error(
-        "the {kind}s of the file ({count}) are no edges of its {cell}s, which have {wanted}s\nhint: give all elements the same order: Mesh.ElementOrder before meshing, or `SetOrder` after it"
-    )]
+    #[error("the {kind}s of the file ({count}) are no edges of its {cell}s, which have {wanted}s")]
+    #[diagnostic(help(
+        "give all elements the same order: Mesh.ElementOrder before meshing, or `SetOrder` after it"
+    ))]
     OtherEdges {
         /// The boundary elements.
         kind: ElementKind,
@@ -133,7 +142,8 @@ pub enum ConvertError {
         wanted: ElementKind,
     },
     /// A plane mesh that is not in the plane.
-    #[error("node {node} at {place} is not in the plane z = 0\nhint: draw plane meshes with z = 0")]
+    #[error("node {node} at {place} is not in the plane z = 0")]
+    #[diagnostic(help("draw plane meshes with z = 0"))]
     NotPlanar {
         /// The node's tag.
         node: u64,
@@ -141,7 +151,8 @@ pub enum ConvertError {
         place: Place,
     },
     /// Cells of both orientations.
-    #[error("{fewer} of {cells} cells are oriented against the others, the first at {place}\nhint: {}", orientation_hint(*kind))]
+    #[error("{fewer} of {cells} cells are oriented against the others, the first at {place}")]
+    #[diagnostic(help("{}", orientation_hint(*kind)))]
     Orientation {
         /// The cells.
         kind: ElementKind,
@@ -153,7 +164,8 @@ pub enum ConvertError {
         place: Place,
     },
     /// Several physical groups of cells, and none is chosen.
-    #[error("the file has several physical {}: {}\nhint: choose those that make this mesh by their names", region_word(*dimension), quoted(groups))]
+    #[error("the file has several physical {}: {}", region_word(*dimension), quoted(groups))]
+    #[diagnostic(help("choose those that make this mesh by their names"))]
     SeveralRegions {
         /// Dimension of the cells.
         dimension: usize,
@@ -161,7 +173,11 @@ pub enum ConvertError {
         groups: Vec<String>,
     },
     /// Cells outside of all physical groups beside others that are in one, and none is chosen.
-    #[error("{cells} of the file's elements of dimension {dimension} belong to no physical group, the others to {}\nhint: choose the physical {} that make this mesh by their names, which leaves the others out, or put all of them into one", quoted(groups), region_word(*dimension))]
+    #[error(
+        "{cells} of the file's elements of dimension {dimension} belong to no physical group, the others to {}",
+        quoted(groups)
+    )]
+    #[diagnostic(help("choose the physical {} that make this mesh by their names, which leaves the others out, or put all of them into one", region_word(*dimension)))]
     Unassigned {
         /// Dimension of the cells.
         dimension: usize,
@@ -171,7 +187,8 @@ pub enum ConvertError {
         groups: Vec<String>,
     },
     /// A physical group of cells that the file does not have.
-    #[error("the file has no physical {} `{name}` with elements\nhint: {}", region_word(*dimension).trim_end_matches('s'), regions_hint(*dimension, groups))]
+    #[error("the file has no physical {} `{name}` with elements", region_word(*dimension).trim_end_matches('s'))]
+    #[diagnostic(help("{}", regions_hint(*dimension, groups)))]
     UnknownRegion {
         /// Dimension of the cells.
         dimension: usize,
@@ -181,15 +198,15 @@ pub enum ConvertError {
         groups: Vec<String>,
     },
     /// No boundary group at all.
-    #[error("no {facet} belongs to a physical group, so no part of the boundary can be named\nhint: mark the boundary in the .geo file: {} (format 2.2 loses the marks when Mesh.SaveAll is set)", physical_hint(*facet))]
+    #[error("no {facet} belongs to a physical group, so no part of the boundary can be named")]
+    #[diagnostic(help("mark the boundary in the .geo file: {} (format 2.2 loses the marks when Mesh.SaveAll is set)", physical_hint(*facet)))]
     NoGroups {
         /// What a facet is.
         facet: ElementKind,
     },
     /// Boundary elements in several groups.
-    #[error(
-        "boundary elements are in group `{first}` and in group `{second}`\nhint: put each curve or surface of the boundary into one physical group"
-    )]
+    #[error("boundary elements are in group `{first}` and in group `{second}`")]
+    #[diagnostic(help("put each curve or surface of the boundary into one physical group"))]
     SharedFacets {
         /// A group of theirs.
         first: String,
@@ -197,9 +214,8 @@ pub enum ConvertError {
         second: String,
     },
     /// A boundary element away from the cells.
-    #[error(
-        "group `{group}` has an element on node {node} at {place}, which no cell uses\nhint: put the domain beside that boundary into a physical group, too, and save again"
-    )]
+    #[error("group `{group}` has an element on node {node} at {place}, which no cell uses")]
+    #[diagnostic(help("put the domain beside that boundary into a physical group, too, and save again"))]
     OffCells {
         /// The group.
         group: String,
@@ -210,6 +226,7 @@ pub enum ConvertError {
     },
     /// Points, cells and groups are read but make no valid mesh.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Mesh(#[from] MeshError),
 }
 

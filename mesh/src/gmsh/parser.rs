@@ -1,16 +1,37 @@
 //! The sections of a file, one after the other.
 
+use std::path::Path;
+
 use super::cursor::Cursor;
 use super::document::{ElementBlock, GmshFile};
 use super::entities::{self, Entities};
-use super::error::ParseError;
+use super::error::{ParseError, ReadError};
 use super::fault::Fault;
 use super::header::{self, Version};
 use super::names::{self, Label};
 use super::numbering::{GroupSets, NodeList};
 use super::{version2, version4};
 
-pub(super) fn parse(bytes: &[u8]) -> Result<GmshFile, ParseError> {
+impl GmshFile {
+    /// Reads the contents of a file.
+    ///
+    /// # Errors
+    /// [`ParseError`] names the line (text) or byte (binary), the section, what is wrong and a remedy.
+    pub fn parse(bytes: &[u8]) -> Result<Self, ParseError> {
+        parse(bytes)
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`ReadError`] when the file cannot be opened or is no complete mesh of format 2.0 to 2.2 or 4.1.
+    pub fn read(path: &Path) -> Result<Self, ReadError> {
+        let bytes = std::fs::read(path).map_err(|source| ReadError::File { path: path.into(), source })?;
+        Self::parse(&bytes).map_err(|source| ReadError::Content { path: path.into(), source })
+    }
+}
+
+fn parse(bytes: &[u8]) -> Result<GmshFile, ParseError> {
     let mut cursor = Cursor::new(bytes);
     let version = header::read(&mut cursor)?;
     let mut parser = Parser {

@@ -22,13 +22,11 @@ const SAMPLES: usize = 16;
 /// A projection this close to a node (in s) is taken for the node: round-off alone keeps them apart.
 const AT_NODE: f64 = 1e-10;
 
-/// One row of `H`: how a point hangs on the nodes of an edge.
+/// One row of `H`: the weights of the nodes of an edge at a point, and which part of the boundary that is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Nodes with a weight other than zero.
-    pub nodes: Vec<usize>,
-    /// Their shape functions at the projected point; the sum is one.
-    pub weights: Vec<f64>,
+    /// Nodes with a weight other than zero, and their weights: the shape functions at the projected point, whose sum is one.
+    pub weights: Vec<(usize, f64)>,
     /// The boundary group of the edge.
     pub group: String,
     /// Distance between the point and its projection `[m]`.
@@ -36,15 +34,15 @@ pub struct Row {
 }
 
 /// Why points cannot be tied to the boundary of a mesh.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum TransferError {
     /// There is nothing to project to.
-    #[error(
-        "points cannot be projected to no boundary group at all\nhint: name at least one group of the mesh"
-    )]
+    #[error("points cannot be projected to no boundary group at all")]
+    #[diagnostic(help("name at least one group of the mesh"))]
     NoGroups,
     /// The mesh has no group of that name.
-    #[error("the mesh has no boundary group `{group}`\nhint: it has {known}")]
+    #[error("the mesh has no boundary group `{group}`")]
+    #[diagnostic(help("it has {known}"))]
     NoSuchGroup {
         /// The group asked for.
         group: String,
@@ -52,7 +50,8 @@ pub enum TransferError {
         known: String,
     },
     /// A coordinate of a point is infinite or not a number.
-    #[error("point {index} at {place} is not finite\nhint: look where the points come from")]
+    #[error("point {index} at {place} is not finite")]
+    #[diagnostic(help("look where the points come from"))]
     NotFinite {
         /// Index of the point.
         index: usize,
@@ -62,9 +61,12 @@ pub enum TransferError {
     /// A point lies off all groups.
     #[error(
         "point {index} at {place} lies {distance:e} m away from the nearest boundary group, `{group}`, which is more \
-         than the tolerance of {tolerance:e} m\nhint: check that points and mesh show the same shape, in the same place \
-         and unit; if they do, raise the tolerance above that distance"
+         than the tolerance of {tolerance:e} m"
     )]
+    #[diagnostic(help(
+        "check that points and mesh show the same shape, in the same place \
+         and unit; if they do, raise the tolerance above that distance"
+    ))]
     TooFar {
         /// Index of the point.
         index: usize,
@@ -97,8 +99,8 @@ pub enum TransferError {
 /// let top = ("top".to_owned(), Cells::new(CellKind::Line2, vec![2, 3]));
 /// let mesh = SolidMesh::new(points, cells, vec![top])?;
 /// let rows = transfer::rows(&mesh, &["top"], &[[0.5, 1.0], [2.0, 1.0]], 1e-9)?;
-/// assert_eq!((rows[0].nodes.as_slice(), rows[0].weights.as_slice()), ([2, 3].as_slice(), [0.25, 0.75].as_slice()));
-/// assert_eq!((rows[1].nodes.as_slice(), rows[1].weights.as_slice()), ([2].as_slice(), [1.0].as_slice()));
+/// assert_eq!(rows[0].weights, [(2, 0.25), (3, 0.75)]);
+/// assert_eq!(rows[1].weights, [(2, 1.0)]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn rows<const D: usize>(
@@ -129,7 +131,7 @@ pub fn to_points<const N: usize>(rows: &[Row], nodes: &[[f64; N]], points: &mut 
     assert_eq!(rows.len(), points.len(), "one value for each row");
     for (row, point) in rows.iter().zip(points) {
         *point = [0.0; N];
-        for (&a, weight) in row.nodes.iter().zip(&row.weights) {
+        for &(a, weight) in &row.weights {
             (0..N).for_each(|c| point[c] += weight * nodes[a][c]);
         }
     }
@@ -142,7 +144,7 @@ pub fn to_points<const N: usize>(rows: &[Row], nodes: &[[f64; N]], points: &mut 
 pub fn add_to_nodes<const N: usize>(rows: &[Row], points: &[[f64; N]], nodes: &mut [[f64; N]]) {
     assert_eq!(rows.len(), points.len(), "one value for each row");
     for (row, point) in rows.iter().zip(points) {
-        for (&a, weight) in row.nodes.iter().zip(&row.weights) {
+        for &(a, weight) in &row.weights {
             (0..N).for_each(|c| nodes[a][c] += weight * point[c]);
         }
     }
@@ -175,8 +177,8 @@ fn row<const D: usize>(
     }
     let shape = reference::line_shape(edge.kind, s).map(|[value, _]| value);
     let entries = edge.nodes.iter().zip(shape).filter(|(_, weight)| *weight != 0.0);
-    let (nodes, weights) = entries.map(|(&node, weight)| (node, weight)).unzip();
-    Ok(Row { nodes, weights, group, distance })
+    let weights = entries.map(|(&node, weight)| (node, weight)).collect();
+    Ok(Row { weights, group, distance })
 }
 
 /// An edge of the boundary, `x(s) = sum_a N_a(s) x_a` for s in [-1, 1].

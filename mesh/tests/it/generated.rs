@@ -4,6 +4,7 @@ use approx::assert_relative_eq;
 use partita_mesh::generate::{CuboidMesh, Diagonal, RectangleMesh, cuboid, rectangle};
 use partita_mesh::mesh::facet_nodes;
 use partita_mesh::{Mesh, MeshError, quality};
+use partita_testing::with_hint;
 use proptest::prelude::*;
 
 use crate::boxes::{PATTERNS, unit_cube, unit_square};
@@ -77,7 +78,7 @@ fn boxes_without_extent_are_refused() {
     let flat =
         RectangleMesh { origin: [0.0; 2], size: [1.0, 0.0], divisions: [2, 2], pattern: Diagonal::Left };
     let error = rectangle(&flat).expect_err("no height");
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     a box of size [1.0, 0.0] m in [2, 2] divisions from [0.0, 0.0] m cannot be meshed
     hint: give finite coordinates, positive sizes and at least one division a direction
     ");

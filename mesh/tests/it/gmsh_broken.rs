@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::fmt::Write;
 
 use partita_mesh::gmsh::{ConvertError, ElementBlock, ElementKind, GmshFile, GroupName};
+use partita_testing::with_hint;
 
 use crate::gmsh::{
     PLATE_2_BINARY, PLATE_2_TEXT, PLATE_4_BINARY, PLATE_4_TEXT, PRISM_4_TEXT, SECOND_ORDER, parse,
@@ -40,7 +41,7 @@ fn table(messages: impl Iterator<Item = (&'static str, String)>) -> String {
 fn parse_messages(cases: Vec<Case>) -> String {
     table(cases.into_iter().map(|(title, file)| {
         let error = GmshFile::parse(&file).expect_err(title);
-        (title, error.to_string())
+        (title, with_hint(&error))
     }))
 }
 
@@ -219,7 +220,7 @@ fn broken_binary_files() {
 fn plate(change: impl FnOnce(&mut GmshFile)) -> String {
     let mut file = parse(PLATE_4_TEXT);
     change(&mut file);
-    file.into_mesh::<2>().expect_err("a broken document").to_string()
+    with_hint(&file.into_mesh::<2>().expect_err("a broken document"))
 }
 
 fn swap_all(triangles: &mut [usize]) {
@@ -241,13 +242,13 @@ fn name(tag: u64, name: &str) -> GroupName {
 #[test]
 fn files_that_make_no_mesh() {
     let prism = || parse(PRISM_4_TEXT);
-    let text = |made: Result<(), ConvertError>| made.expect_err("broken");
-    let space = |file: GmshFile| text(file.into_mesh::<3>().map(|_| ())).to_string();
+    let text = |made: Result<(), ConvertError>| with_hint(&made.expect_err("broken"));
+    let space = |file: GmshFile| text(file.into_mesh::<3>().map(|_| ()));
     let cases = vec![
         ("no elements at all", plate(|file| file.blocks.clear())),
         ("a plate in space", space(parse(PLATE_4_TEXT))),
-        ("a prism in the plane", text(prism().into_mesh::<2>().map(|_| ())).to_string()),
-        ("second order", text(parse(SECOND_ORDER).into_mesh::<2>().map(|_| ())).to_string()),
+        ("a prism in the plane", text(prism().into_mesh::<2>().map(|_| ()))),
+        ("second order", text(parse(SECOND_ORDER).into_mesh::<2>().map(|_| ()))),
         ("quadrilaterals", plate(|file| file.blocks.push(quadrilateral()))),
         ("out of the plane", plate(|file| file.points[7][2] = 0.1)),
         ("one clockwise", plate(|file| swap_all(&mut triangles(file).nodes[30..33]))),

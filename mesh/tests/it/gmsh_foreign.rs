@@ -1,5 +1,6 @@
 //! Files of gmsh as other tools, editors and older versions write them.
 
+use miette::Diagnostic;
 use partita_mesh::gmsh::{Fault, GmshFile};
 
 use crate::gmsh::{PLATE_2_BINARY, PLATE_2_TEXT, PLATE_4_BINARY, PLATE_4_TEXT, parse};
@@ -176,5 +177,5 @@ fn names_without_a_dimension_elsewhere_say_so() {
         }
     }
     assert_eq!(fault(&with(&version_2_0(), "4 \"inflow\"", "-1 4 \"inflow\"")), missing);
-    assert!(missing.to_string().contains("`1 4 \"inflow\"`"), "{missing}");
+    assert!(missing.help().expect("a remedy").to_string().contains("`1 4 \"inflow\"`"));
 }

@@ -3,6 +3,7 @@
 use partita_mesh::gmsh::{ConvertError, GmshFile};
 use partita_mesh::quality::measures;
 use partita_mesh::{Mesh, SolidMesh};
+use partita_testing::with_hint;
 
 use crate::gmsh::{PLATE_4_TEXT, PRISM_4_TEXT, SECOND_ORDER, parse};
 use crate::gmsh_kinds::fixture;
@@ -110,7 +111,7 @@ fn a_mesh_of_both_orientations_is_refused_with_a_place_and_a_way_out() {
     };
     assert!(!few.is_inverted(2));
     let error = few.clone().into_mesh::<2>().expect_err("one clockwise cell");
-    insta::assert_snapshot!(error, @r#"
+    insta::assert_snapshot!(with_hint(&error), @r#"
     1 of 50 cells are oriented against the others, the first at (0.359296, 0.0538927) m
     hint: if cells overlap, remesh; else turn the clockwise ones in Python (`pip install gmsh`):
     import gmsh
@@ -131,6 +132,6 @@ fn a_mesh_of_both_orientations_is_refused_with_a_place_and_a_way_out() {
     nodes.swap(1, 3);
     nodes.swap(4, 7);
     nodes.swap(5, 6);
-    let message = quadrilaterals.into_solid_mesh().expect_err("one clockwise cell").to_string();
+    let message = with_hint(&quadrilaterals.into_solid_mesh().expect_err("one clockwise cell"));
     assert!(message.starts_with("1 of ") && message.contains("getElementsByType(10)"), "{message}");
 }

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use partita_mesh::gmsh::{ConvertError, GmshFile, PhysicalGroup};
 use partita_mesh::{CellKind, Mesh};
+use partita_testing::with_hint;
 
 use crate::gmsh::parse;
 
@@ -124,12 +125,13 @@ fn a_choice_that_cannot_be_met_is_refused() {
     bare.blocks.retain(|block| block.kind.dimension() < 2);
     for (file, name) in [(two(), "watr"), (two(), "wet"), (two(), ""), (bare, "water")] {
         let error = file.part(2, &["water", name][usize::from(name != "water")..]).expect_err(name);
-        writeln!(all, "{error}").expect("strings grow");
+        writeln!(all, "{}", with_hint(&error)).expect("strings grow");
     }
-    writeln!(all, "{}", two().part(2, &[] as &[&str]).expect_err("two surfaces")).expect("strings grow");
+    writeln!(all, "{}", with_hint(&two().part(2, &[] as &[&str]).expect_err("two surfaces")))
+        .expect("strings grow");
     let quadrilaterals =
         two().part(2, &["plate"]).expect("a part").into_mesh::<2>().expect_err("no triangles");
-    writeln!(all, "{quadrilaterals}").expect("strings grow");
+    writeln!(all, "{}", with_hint(&quadrilaterals)).expect("strings grow");
     insta::assert_snapshot!(all, @r"
     the file has no physical surface `watr` with elements
     hint: it has `water`, `plate`

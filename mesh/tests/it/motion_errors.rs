@@ -3,6 +3,7 @@
 use partita_mesh::generate::Diagonal;
 use partita_mesh::motion::prescribed_dofs;
 use partita_mesh::{CellKind, Cells, Mesh, MeshMotion, MotionError, MotionLaw, MotionMode, MotionSettings};
+use partita_testing::with_hint;
 
 use crate::boxes::{unit_cube, unit_square};
 
@@ -18,7 +19,7 @@ fn inverted_triangle_is_named_with_its_place() {
     let mut displacement = vec![0.0; 18];
     displacement[8..10].copy_from_slice(&[0.6, 0.5]);
     let error = motion.check(&displacement).expect_err("the centre has left the square");
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     mesh motion: cell 6 at (1.03333, 0.833333) m is inverted, measure -2.500e-2 m^2
     hint: smaller time steps, incremental mesh motion, or another stiffening
     ");
@@ -32,7 +33,7 @@ fn inverted_tetrahedron_is_named_with_its_place() {
     let mut displacement = vec![0.0; 24];
     displacement[9..12].copy_from_slice(&[-1.2, 0.0, 0.0]);
     let error = motion.check(&displacement).expect_err("a corner pushed through");
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     mesh motion: cell 4 at (0.2, 0.75, 0.25) m is inverted, measure -3.333e-2 m^3
     hint: smaller time steps, incremental mesh motion, or another stiffening
     ");
@@ -69,7 +70,7 @@ fn diverged_boundary_is_named() {
     let mut displacement = committed.clone();
     displacement[5] = f64::INFINITY;
     let error = motion.displace(&committed, &mut displacement).expect_err("an infinite displacement");
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     mesh motion: the prescribed displacement of node 2 at (1, 0) m is not finite
     hint: the solver that moves this boundary has diverged
     ");
@@ -81,7 +82,7 @@ fn mesh_that_floats_is_refused() {
     let mut prescribed = vec![false; 18];
     prescribed[0] = true;
     let error = MeshMotion::new(&mesh, settings(MotionMode::Reference), &prescribed).expect_err("held in x");
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     mesh motion: no node is held in direction y
     hint: not every boundary can slide in the same direction
     ");
@@ -97,7 +98,7 @@ fn settings_out_of_range_are_refused() {
     let prescribed = prescribed_dofs(&mesh, &[]).expect("no sliding");
     let message = |law| {
         let settings = MotionSettings { law, ..MotionSettings::default() };
-        MeshMotion::new(&mesh, settings, &prescribed).expect_err("out of range").to_string()
+        with_hint(&MeshMotion::new(&mesh, settings, &prescribed).expect_err("out of range"))
     };
     insta::assert_snapshot!(message(MotionLaw::Elastic { poisson_ratio: 0.5, stiffening: 1.0 }), @r"
     mesh motion: Poisson's ratio 0.5 of the mesh is not in (-1, 0.5)
@@ -112,7 +113,7 @@ fn settings_out_of_range_are_refused() {
 #[test]
 fn unknown_group_cannot_slide() {
     let error = prescribed_dofs(&unit_square(2, Diagonal::Right), &["floor"]).expect_err("no such group");
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     mesh motion: there is no boundary group `floor` to slide along
     hint: the groups are left, right, bottom, top
     ");
@@ -124,7 +125,7 @@ fn oblique_group_cannot_slide() {
     let cells = Cells::new(CellKind::Triangle3, vec![0, 1, 2]);
     let mesh = Mesh::new(points, cells, vec![("ramp".into(), vec![[1, 2]])]).expect("a triangle");
     let error = prescribed_dofs(&mesh, &["ramp"]).expect_err("an oblique side");
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     mesh motion: nodes cannot slide along group `ramp`, its facet at (0.5, 0.5) m is not normal to an axis
     hint: only straight boundaries along x, y or z can slide
     ");

@@ -3,6 +3,7 @@
 use partita_mesh::gmsh::{ElementBlock, ElementKind, GmshFile};
 use partita_mesh::solid::NamedEdges;
 use partita_mesh::{CellKind, Cells, MeshError, SolidMesh};
+use partita_testing::with_hint;
 
 use crate::gmsh::{PLATE_4_TEXT, PRISM_4_TEXT, SECOND_ORDER, parse};
 use crate::solid::QUADRILATERALS_4;
@@ -33,7 +34,7 @@ fn edges(name: &str, nodes: &[usize]) -> NamedEdges {
 
 fn message(points: Vec<[f64; 2]>, nodes: Vec<usize>, groups: Vec<NamedEdges>) -> String {
     let cells = Cells::new(CellKind::Quadrilateral8, nodes);
-    SolidMesh::new(points, cells, groups).expect_err("a broken mesh").to_string()
+    with_hint(&SolidMesh::new(points, cells, groups).expect_err("a broken mesh"))
 }
 
 fn message_of_groups(groups: Vec<NamedEdges>) -> String {
@@ -65,14 +66,14 @@ fn cells_that_are_turned_over_are_folded() {
     let (points, _) = squares();
     let cells = Cells::new(CellKind::Triangle3, vec![0, 5, 1]);
     let message = SolidMesh::new(points[..6].to_vec(), cells, vec![]).expect_err("a node without a cell");
-    insta::assert_snapshot!(message, @r"
+    insta::assert_snapshot!(with_hint(&message), @r"
     node 2 at (1, 0) m belongs to no cell
     hint: remove it from the mesh
     ");
     let cells = Cells::new(CellKind::Triangle3, vec![0, 2, 1]);
     let message =
         SolidMesh::new(vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], cells, vec![]).expect_err("clockwise");
-    insta::assert_snapshot!(message, @r"
+    insta::assert_snapshot!(with_hint(&message), @r"
     cell 0 is folded near (0.166667, 0.166667) m: the determinant of its map is -1.000e0 m^2
     hint: corners run counter-clockwise, and the points on its edges stay near the middle; remesh there, or straighten the mesh
     ");
@@ -93,7 +94,7 @@ fn no_cells_and_cells_of_other_kinds() {
     let empty = SolidMesh::<2>::new(vec![], Cells::new(CellKind::Triangle6, vec![]), vec![]);
     assert!(empty.expect_err("no cells").to_string().starts_with("the mesh has no cells"));
     let line = SolidMesh::new(vec![[0.0; 2], [1.0; 2]], Cells::new(CellKind::Line2, vec![0, 1]), vec![]);
-    insta::assert_snapshot!(line.expect_err("a line"), @r"
+    insta::assert_snapshot!(with_hint(&line.expect_err("a line")), @r"
     cells of kind Line2 do not make a solid in 2 dimensions
     hint: plane solids consist of triangles or quadrilaterals of degree 1 or 2; solids in space need a patch
     ");
@@ -145,7 +146,7 @@ fn three_cells_at_one_edge() {
 }
 
 fn refusal(file: GmshFile) -> String {
-    file.into_solid_mesh().expect_err("no solid").to_string()
+    with_hint(&file.into_solid_mesh().expect_err("no solid"))
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use partita_mesh::mesh::NamedFacets;
 use partita_mesh::{CellKind, Cells, Mesh, MeshError};
+use partita_testing::with_hint;
 
 /// The unit square in two triangles.
 fn square() -> (Vec<[f64; 2]>, Vec<usize>) {
@@ -17,7 +18,7 @@ fn build(
 }
 
 fn message(points: Vec<[f64; 2]>, nodes: Vec<usize>, groups: Vec<NamedFacets<2>>) -> String {
-    build(points, nodes, groups).expect_err("a broken mesh").to_string()
+    with_hint(&build(points, nodes, groups).expect_err("a broken mesh"))
 }
 
 fn message_of_groups(groups: Vec<NamedFacets<2>>) -> String {
@@ -51,7 +52,7 @@ fn quadrilaterals_carry_no_physics() {
     let (points, _) = square();
     let cells = Cells::new(CellKind::Quadrilateral4, vec![0, 1, 2, 3]);
     let error = Mesh::new(points, cells, vec![]).expect_err("no simplices");
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     cells of kind Quadrilateral4 do not make a mesh in 2 dimensions
     hint: only Triangle3 can be solved on there
     ");
@@ -105,7 +106,7 @@ fn cell_beyond_all_numbers() {
         let error = far(corner).expect_err("an area that overflows");
         assert!(matches!(error, MeshError::TooLarge { cell: 0, .. }), "{error}");
     }
-    insta::assert_snapshot!(far([1e199, 1e200]).expect_err("no number"), @r"
+    insta::assert_snapshot!(with_hint(&far([1e199, 1e200]).expect_err("no number")), @r"
     cell 0 at (3.66667e199, 6.66667e199) m is too large for its measure to be a finite number
     hint: check the coordinates and their unit
     ");

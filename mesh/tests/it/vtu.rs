@@ -5,6 +5,7 @@ use std::fs;
 use partita_mesh::generate::Diagonal;
 use partita_mesh::vtu::{Array, Encoding, PvdCollection, VtuError, VtuFile, save_vtu, write_vtu};
 use partita_mesh::{CellKind, Cells, Mesh};
+use partita_testing::with_hint;
 
 use crate::boxes::{field, unit_cube, unit_square};
 
@@ -164,7 +165,7 @@ fn folder_that_does_not_exist_is_named() {
     let mesh = unit_square(1, Diagonal::Right);
     let error = save_vtu("/nowhere/fluid.vtu".as_ref(), mesh.points(), mesh.cells(), &[], &[])
         .expect_err("no such folder");
-    insta::assert_snapshot!(error, @r"
+    insta::assert_snapshot!(with_hint(&error), @r"
     cannot write `/nowhere/fluid.vtu`: No such file or directory (os error 2)
     hint: check that the folder exists, may be written to, and is not full
     ");

@@ -1,5 +1,9 @@
 //! How a Newton loop fails.
 
+use std::fmt;
+
+use miette::Diagnostic;
+
 use super::{Bound, ResidualNorm};
 
 /// Where a residual came from before it was lost.
@@ -19,10 +23,7 @@ pub enum Failure<E> {
         source: E,
     },
     /// The residual is infinite or not a number.
-    #[error(
-        "Newton iteration {iteration}: the residual is not finite: {residual}{}\n\
-         hint: check the input of this call, or take a smaller time step", way(before.as_ref())
-    )]
+    #[error("Newton iteration {iteration}: the residual is not finite: {residual}{}", way(before.as_ref()))]
     NotFinite {
         /// The iteration, from 1; 0 is the evaluation at the entry.
         iteration: usize,
@@ -32,10 +33,7 @@ pub enum Failure<E> {
         before: Option<(ResidualNorm, ResidualNorm)>,
     },
     /// The residual exploded.
-    #[error(
-        "Newton iteration {iteration}: the residual grew from {entry} to {residual}\n\
-         hint: take a smaller time step or load step, or start from a better guess"
-    )]
+    #[error("Newton iteration {iteration}: the residual grew from {entry} to {residual}")]
     Diverged {
         /// The iteration, from 1.
         iteration: usize,
@@ -45,10 +43,7 @@ pub enum Failure<E> {
         residual: ResidualNorm,
     },
     /// The bound was not met within the allowed iterations.
-    #[error(
-        "residual {residual} after {iterations} Newton iterations, from {entry}; the bound is {bound}\n\
-         hint: a residual that still falls needs more iterations, one that does not a smaller time step"
-    )]
+    #[error("residual {residual} after {iterations} Newton iterations, from {entry}; the bound is {bound}")]
     TooManyIterations {
         /// The iterations done.
         iterations: usize,
@@ -60,10 +55,7 @@ pub enum Failure<E> {
         bound: Bound,
     },
     /// The residual stands still above its bound, and above its round-off.
-    #[error(
-        "Newton iteration {iteration}: the residual stands still at {residual}{}; the bound is {bound}\n\
-         hint: the tangent may be nearly singular, or the bound may ask for more than the arithmetic can give", compared(*round_offs)
-    )]
+    #[error("Newton iteration {iteration}: the residual stands still at {residual}{}; the bound is {bound}", compared(*round_offs))]
     Stagnated {
         /// The iteration, from 1.
         iteration: usize,
@@ -74,6 +66,24 @@ pub enum Failure<E> {
         /// The residual in units of the round-off of its terms, infinite where that is not known.
         round_offs: f64,
     },
+}
+
+/// By hand, because the derive macro does not bound `E`.
+impl<E: Diagnostic + 'static> Diagnostic for Failure<E> {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        let advice = match self {
+            Self::Problem { source, .. } => return source.help(),
+            Self::NotFinite { .. } => "check the input of this call, or take a smaller time step",
+            Self::Diverged { .. } => "take a smaller time step or load step, or start from a better guess",
+            Self::TooManyIterations { .. } => {
+                "a residual that still falls needs more iterations, one that does not a smaller time step"
+            }
+            Self::Stagnated { .. } => {
+                "the tangent may be nearly singular, or the bound may ask for more than the arithmetic can give"
+            }
+        };
+        Some(Box::new(advice))
+    }
 }
 
 fn compared(round_offs: f64) -> String {

@@ -1,12 +1,15 @@
 #![allow(clippy::float_cmp, reason = "these values are exact")]
 
+use miette::Diagnostic;
+
 use super::*;
 use crate::rates::fitted_order;
 use crate::small;
 
 /// The first solve of a call fails here.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Diagnostic)]
 #[error("broken")]
+#[diagnostic(help("mend it"))]
 struct Broken;
 
 /// Residuals as written down, one an assembly, against the scale one; a log of what the loop asked for.
@@ -324,17 +327,18 @@ fn failures_of_the_problem_name_their_iteration() {
     let failure = problem.run(Check::Before, Limit::ToConvergence).unwrap_err();
     assert_eq!(failure, Failure::Problem { iteration: 2, source: Broken });
     assert_eq!(std::error::Error::source(&failure).unwrap().to_string(), "broken");
+    assert_eq!(failure.help().unwrap().to_string(), "mend it");
 }
 
 #[test]
-fn messages_end_in_a_hint() {
+fn a_failure_has_a_remedy() {
     let lost = Script::new(&[1.0, 4.0, f64::NAN]).run(Check::Before, Limit::ToConvergence).unwrap_err();
     assert_eq!(
         lost.to_string(),
         "Newton iteration 2: the residual is not finite: NaN (relative NaN), \
-         from 1.000e0 (relative 1.000e0) at the entry and 4.000e0 (relative 4.000e0) before\n\
-         hint: check the input of this call, or take a smaller time step"
+         from 1.000e0 (relative 1.000e0) at the entry and 4.000e0 (relative 4.000e0) before"
     );
+    assert_eq!(lost.help().unwrap().to_string(), "check the input of this call, or take a smaller time step");
     let residual = ResidualNorm::new(3.0, 12.0);
     let failure: Failure<Broken> =
         Failure::Stagnated { iteration: 7, residual, bound: Bound::Relative(1e-10), round_offs: 40.0 };
@@ -342,7 +346,10 @@ fn messages_end_in_a_hint() {
         failure.to_string(),
         "Newton iteration 7: the residual stands still at 3.000e0 (relative 2.500e-1), \
          40.0 times the round-off of its terms; \
-         the bound is 1e-10 (relative)\n\
-         hint: the tangent may be nearly singular, or the bound may ask for more than the arithmetic can give"
+         the bound is 1e-10 (relative)"
+    );
+    assert_eq!(
+        failure.help().unwrap().to_string(),
+        "the tangent may be nearly singular, or the bound may ask for more than the arithmetic can give"
     );
 }

@@ -25,11 +25,11 @@ pub struct GeneralizedAlpha {
 }
 
 /// A spectral radius outside [0, 1].
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error(
-    "generalized-alpha: spectral radius {radius} lies outside [0, 1]\n\
-     hint: 1 keeps all energy, 0 removes the highest frequencies within a step; 0.5 to 0.9 is common"
-)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, miette::Diagnostic)]
+#[error("generalized-alpha: spectral radius {radius} lies outside [0, 1]")]
+#[diagnostic(help(
+    "1 keeps all energy, 0 removes the highest frequencies within a step; 0.5 to 0.9 is common"
+))]
 pub struct SpectralRadiusError {
     /// The radius asked for.
     pub radius: f64,
@@ -94,6 +94,8 @@ pub(super) mod amplification {
 #[cfg(test)]
 mod tests {
     use super::amplification::{self, spectral_radius};
+    use miette::Diagnostic as _;
+
     use super::*;
     use approx::assert_relative_eq;
 
@@ -162,7 +164,7 @@ mod tests {
     fn radius_outside_the_unit_interval_is_refused() {
         for radius in [-0.1, 1.1, f64::NAN] {
             let error = GeneralizedAlpha::from_spectral_radius(radius).unwrap_err();
-            assert!(error.to_string().contains("\nhint: "));
+            assert!(error.help().is_some());
         }
     }
 }

@@ -3,25 +3,27 @@
 use super::GeneralizedAlpha;
 
 /// Parameters with which Newmark's method amplifies some frequency, or cannot be stepped implicitly.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum NewmarkError {
     /// Below gamma = 1/2 every frequency is amplified, however short the step; NaN and infinity are refused, too.
     #[error(
-        "Newmark: gamma = {gamma} is not a number of at least 0.5, and would feed energy into every frequency\n\
-         hint: 0.5 is of second order and keeps the energy of linear vibrations; above it vibrations are damped \
-         at first order"
+        "Newmark: gamma = {gamma} is not a number of at least 0.5, and would feed energy into every frequency"
     )]
+    #[diagnostic(help(
+        "0.5 is of second order and keeps the energy of linear vibrations; above it vibrations are damped \
+         at first order"
+    ))]
     Gamma {
         /// The gamma asked for.
         gamma: f64,
     },
     /// Below 2 beta = gamma only steps with omega dt < `limit` are stable, and a mesh has frequencies without bound.
-    #[error(
-        "Newmark: beta = {beta} is below gamma/2 = {}, and stable only while omega dt < {limit:.3} for the highest \
-         frequency of the mesh\nhint: 0.25 belongs to gamma = 0.5 (average acceleration); (gamma + 0.5)^2/4 damps \
-         the highest frequencies most",
-        0.5 * gamma
-    )]
+    #[error("Newmark: beta = {beta} is below gamma/2 = {}, and stable only while omega dt < {limit:.3} for the highest \
+         frequency of the mesh", 0.5 * gamma)]
+    #[diagnostic(help(
+        "0.25 belongs to gamma = 0.5 (average acceleration); (gamma + 0.5)^2/4 damps \
+         the highest frequencies most"
+    ))]
     Beta {
         /// The beta asked for.
         beta: f64,
@@ -77,6 +79,8 @@ impl GeneralizedAlpha {
 #[cfg(test)]
 mod tests {
     use super::super::generalized_alpha::amplification::{self, spectral_radius};
+    use miette::Diagnostic as _;
+
     use super::*;
     use crate::rates::fitted_order;
     use approx::assert_relative_eq;
@@ -168,12 +172,12 @@ mod tests {
         for (beta, gamma) in [(0.25, 0.4), (0.25, f64::NAN), (0.25, f64::INFINITY)] {
             let error = GeneralizedAlpha::newmark(beta, gamma).unwrap_err();
             assert!(matches!(error, NewmarkError::Gamma { .. }), "{error}");
-            assert!(error.to_string().contains("\nhint: "));
+            assert!(error.help().is_some());
         }
         for (beta, gamma) in [(0.0, 0.5), (0.25, 0.6), (f64::NAN, 0.5), (f64::INFINITY, 0.5)] {
             let error = GeneralizedAlpha::newmark(beta, gamma).unwrap_err();
             assert!(matches!(error, NewmarkError::Beta { .. }), "{error}");
-            assert!(error.to_string().contains("\nhint: "));
+            assert!(error.help().is_some());
         }
     }
 }

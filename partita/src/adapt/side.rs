@@ -1,6 +1,6 @@
 //! One side of a coupled run: one of our solvers, somebody else's participant, or nothing.
 
-use std::error::Error;
+use miette::Diagnostic;
 
 use partita_coupling::{Block, Effort, NewtonLimit, Participant, ParticipantError, SetupError, Step};
 
@@ -55,7 +55,7 @@ impl<F, P: Participant + Send + 'static> From<Box<P>> for Side<F> {
 impl<F> Side<F>
 where
     F: Field,
-    F::Error: Error + From<StateMismatch> + Send + Sync + 'static,
+    F::Error: Diagnostic + From<StateMismatch> + Send + Sync + 'static,
 {
     fn participant(&self) -> Option<&dyn Participant> {
         match self {
@@ -77,7 +77,7 @@ where
 impl<F> Participant for Side<F>
 where
     F: Field,
-    F::Error: Error + From<StateMismatch> + Send + Sync + 'static,
+    F::Error: Diagnostic + From<StateMismatch> + Send + Sync + 'static,
 {
     fn name(&self) -> &str {
         match self {

@@ -1,10 +1,10 @@
 //! Where fluid and structure meet: the operator H between their interface points.
 
-use partita_coupling::transfer::mortar::{Mortar, Row};
+use partita_coupling::transfer::mortar::Mortar;
 use partita_coupling::{MatrixTransfer, Transfer};
 use partita_fluid::FluidSolver;
 use partita_numerics::gauss;
-use partita_structure::{InterfaceRow, Segment, StructureError, StructureSolver};
+use partita_structure::{Segment, StructureError, StructureSolver};
 use sprs::TriMat;
 
 use super::BuildError;
@@ -50,7 +50,7 @@ pub(crate) fn transfer(
     let points: Vec<[f64; 2]> =
         fluid.interface_nodes().iter().map(|&node| fluid.mesh().points()[node]).collect();
     let tolerance = tolerance * extent(&points);
-    let nodal = rows(structure.interface_rows(&points, tolerance)?);
+    let nodal = structure.interface_rows(&points, tolerance)?;
     let count = points.len();
     let rows = match chosen(method, coarsest(fluid, structure).as_ref()) {
         schema::Transfer::Interpolation => nodal,
@@ -71,10 +71,10 @@ pub(crate) fn transfer(
 fn mortar(
     points: Vec<[f64; 2]>,
     facets: Vec<[usize; 2]>,
-    nodal: Vec<Row>,
+    nodal: Vec<Vec<(usize, f64)>>,
     structure: &StructureSolver<2>,
     tolerance: f64,
-) -> Result<Vec<Row>, StructureError> {
+) -> Result<Vec<Vec<(usize, f64)>>, StructureError> {
     let (space, wetted) = (structure.space(), &structure.model().wetted);
     let corners = space.boundary_ends(wetted);
     let at_corner = |point: &[f64; 2]| {
@@ -88,14 +88,8 @@ fn mortar(
         .iter()
         .map(|samples| Segment { ends: samples.ends, points: samples.points.clone() })
         .collect();
-    let sampled: Vec<Vec<Row>> =
-        structure.segment_rows(&segments, tolerance)?.into_iter().map(rows).collect();
+    let sampled = structure.segment_rows(&segments, tolerance)?;
     Ok(mortar.rows(nodal, &samples, &sampled))
-}
-
-/// Weights by the nodes of the structure.
-fn rows(rows: Vec<InterfaceRow>) -> Vec<Row> {
-    rows.into_iter().map(|row| row.nodes.into_iter().zip(row.weights).collect()).collect()
 }
 
 /// The facets of the fluid's interface by the numbers of its interface nodes.

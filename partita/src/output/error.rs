@@ -8,10 +8,11 @@ use partita_mesh::vtu::VtuError;
 use super::space::{Estimate, size};
 
 /// Why a run's output cannot be written or taken up again.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum OutputError {
     /// The system refuses to write.
-    #[error("cannot write {path}: {source}\nhint: check the folder's permissions and the space left", path = path.display())]
+    #[error("cannot write {path}: {source}", path = path.display())]
+    #[diagnostic(help("check the folder's permissions and the space left"))]
     Write {
         /// The file or folder.
         path: PathBuf,
@@ -19,7 +20,8 @@ pub enum OutputError {
         source: io::Error,
     },
     /// The system refuses to read.
-    #[error("cannot read {path}: {source}\nhint: give the output folder of a run", path = path.display())]
+    #[error("cannot read {path}: {source}", path = path.display())]
+    #[diagnostic(help("give the output folder of a run"))]
     Read {
         /// The file or folder.
         path: PathBuf,
@@ -27,7 +29,10 @@ pub enum OutputError {
         source: io::Error,
     },
     /// The disk has less space than the run will fill.
-    #[error("the run will write about {} to {dir}, where {} are free (fields {}, records and tables {}, checkpoints {})\nhint: write fields less often (output.fields_every), make space, or choose another folder with --out", size(estimate.total()), size(*free), size(estimate.fields), size(estimate.records), size(estimate.checkpoints), dir = dir.display())]
+    #[error("the run will write about {} to {dir}, where {} are free (fields {}, records and tables {}, checkpoints {})", size(estimate.total()), size(*free), size(estimate.fields), size(estimate.records), size(estimate.checkpoints), dir = dir.display())]
+    #[diagnostic(help(
+        "write fields less often (output.fields_every), make space, or choose another folder with --out"
+    ))]
     NoSpace {
         /// The folder.
         dir: PathBuf,
@@ -37,25 +42,31 @@ pub enum OutputError {
         free: u64,
     },
     /// The folder is in use.
-    #[error("{dir} is not empty\nhint: choose another folder with --out; --force replaces an earlier run, never other files", dir = dir.display())]
+    #[error("{dir} is not empty", dir = dir.display())]
+    #[diagnostic(help(
+        "choose another folder with --out; --force replaces an earlier run, never other files"
+    ))]
     Occupied {
         /// The folder.
         dir: PathBuf,
     },
     /// The folder of a run holds something else too.
-    #[error("{path} is not of a run; nothing was removed\nhint: move it away, or choose another folder with --out", path = path.display())]
+    #[error("{path} is not of a run; nothing was removed", path = path.display())]
+    #[diagnostic(help("move it away, or choose another folder with --out"))]
     Foreign {
         /// The file or folder.
         path: PathBuf,
     },
     /// Another process writes there.
-    #[error("{path} is being written by another run\nhint: wait for it, or choose another folder with --out", path = path.display())]
+    #[error("{path} is being written by another run", path = path.display())]
+    #[diagnostic(help("wait for it, or choose another folder with --out"))]
     InUse {
         /// The file.
         path: PathBuf,
     },
     /// A line is not what a run writes.
-    #[error("{path}:{line}: {reason}\nhint: the file was changed after the run wrote it, or by another version of Partita", path = path.display())]
+    #[error("{path}:{line}: {reason}", path = path.display())]
+    #[diagnostic(help("the file was changed after the run wrote it, or by another version of Partita"))]
     Corrupt {
         /// The file.
         path: PathBuf,
@@ -65,7 +76,8 @@ pub enum OutputError {
         reason: String,
     },
     /// A file lacks steps that the checkpoint has behind it.
-    #[error("{path} ends before step {step}, the step of the checkpoint\nhint: the file was cut; resume from an earlier checkpoint or start anew", path = path.display())]
+    #[error("{path} ends before step {step}, the step of the checkpoint", path = path.display())]
+    #[diagnostic(help("the file was cut; resume from an earlier checkpoint or start anew"))]
     Cut {
         /// The file.
         path: PathBuf,
@@ -74,6 +86,7 @@ pub enum OutputError {
     },
     /// A field file or its collection.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Fields(#[from] VtuError),
 }
 

@@ -49,8 +49,9 @@ use lines::LineFile;
 use partita_scene::{INPUT_FOLDER, Input};
 use record::{Line, ProbeRow};
 
+pub use crate::clock::{Clock, Spent};
 pub use error::OutputError;
-pub use summary::{Clock, Ending, OtherField, Seconds, Spent, Summary, Totals, Work};
+pub use summary::{Ending, OtherField, Seconds, Summary, Totals, Work};
 
 /// The resolved scene.
 pub const SCENE: &str = "scene.toml";

@@ -19,10 +19,11 @@ pub enum Rows {
 }
 
 /// Why there is no table.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum TableError {
     /// The records cannot be read.
     #[error(transparent)]
+    #[diagnostic(transparent)]
     Records(#[from] OutputError),
     /// Nobody takes the table.
     #[error(transparent)]

@@ -2,7 +2,6 @@
 
 use partita_coupling::{IterationRecord, Observer, RetryRecord, StepRecord};
 
-use super::error::first_line;
 use super::{Run, RunError};
 use crate::checkpoint;
 use crate::draw::Drawing;
@@ -59,7 +58,7 @@ impl Run {
         let saved = self.save_if_wanted();
         let summed = self.sum_up_failure(&error);
         for lost in [drawn, saved, summed].into_iter().filter_map(Result::err) {
-            watcher.note(&format!("warning: {}", first_line(&lost)));
+            watcher.note(&format!("warning: {lost}"));
         }
         error
     }
@@ -83,7 +82,7 @@ impl Run {
 
     fn sum_up_failure(&mut self, error: &RunError) -> Result<(), RunError> {
         if let Some(folder) = &mut self.folder {
-            folder.writer.fail(first_line(error))?;
+            folder.writer.fail(error.to_string())?;
         }
         Ok(())
     }

@@ -4,7 +4,6 @@ use partita_coupling::{MarchState, Saved};
 use partita_scene::Resolved;
 use serde::{Deserialize, Serialize};
 
-use super::error::first_line;
 use super::{Run, RunError};
 use crate::couple::FieldMarch;
 
@@ -55,7 +54,7 @@ impl RunState {
     fn restore_march(&self, march: &mut FieldMarch) -> Result<(), RunError> {
         let misfit =
             |what| if self.scene.is_empty() { RunError::Foreign(what) } else { RunError::Misfit(what) };
-        march.restore(&self.march).map_err(|error| misfit(first_line(&error)))
+        march.restore(&self.march).map_err(|error| misfit(error.to_string()))
     }
 }
 
@@ -85,7 +84,7 @@ impl Run {
             let foreign = |what: String| RunError::Foreign(format!("probe `{}`: {what}", named.name));
             let saved = state.probes.iter().find(|saved| saved.probe.owner == named.name);
             let saved = saved.ok_or_else(|| foreign("it was not there".to_owned()))?;
-            named.probe.restore(&saved.probe.bytes).map_err(|error| foreign(first_line(&error)))?;
+            named.probe.restore(&saved.probe.bytes).map_err(|error| foreign(error.to_string()))?;
             named.latest.clone_from(&saved.latest);
         }
         Ok(())

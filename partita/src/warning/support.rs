@@ -80,7 +80,7 @@ pub(super) fn dragged_corners(
                 let Ok(rows) = structure.interface_rows(&[place], f64::INFINITY) else { continue };
                 let leaves =
                     |node: &usize| (0..2).any(|c| normal[c].abs() > OFF && !structure.is_held(*node, c));
-                let nodes: Vec<usize> = rows[0].nodes.iter().copied().filter(leaves).collect();
+                let nodes: Vec<usize> = rows[0].iter().map(|(node, _)| *node).filter(leaves).collect();
                 if !nodes.is_empty() {
                     corners.push(DraggedCorner { group: group.clone(), place, normal, nodes });
                 }

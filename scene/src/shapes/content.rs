@@ -2,10 +2,10 @@
 
 use partita_mesh::gmsh::{ConvertError, GmshFile, PhysicalGroup};
 
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::schema::{FileName, Groups};
 use crate::spelling::nearest;
-use crate::validate::Check;
 
 /// The physical groups of a file, and what became of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -117,7 +117,7 @@ pub(super) fn choose(
         ConvertError::UnknownRegion { name: wanted, groups: known, .. } => {
             unknown(&wanted, name, &groups, &known).mark_if(place, "no such surface")
         }
-        other => Finding::of(&format!("{name}: {other}")),
+        other => Finding::of(&other).led_by(&format!("{name}: ")),
     })
 }
 

@@ -9,9 +9,9 @@ use partita_mesh::refine;
 use super::content::{self, Content};
 use super::read::{self, Input};
 use super::{FLUID_FILE, Shapes};
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::schema::{Circle, Count, Diagonals, FluidMesh, GmshMesh, Positive, Real, RectangleMesh};
-use crate::validate::Check;
 
 /// More would make millions of triangles of a single one.
 const MOST_REFINEMENTS: usize = 10;
@@ -65,7 +65,8 @@ fn from_file(
     let part = content::choose(file, mesh.surfaces.as_ref(), &mesh.file, check, table)?;
     content.turned = part.is_inverted(2);
     content.touching(&part);
-    let mut made = part.into_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
+    let mut made =
+        part.into_mesh().map_err(|error| Finding::of(&error).led_by(&format!("{}: ", mesh.file)))?;
     content.bounds(&made.groups().iter().map(|group| &*group.name).collect::<Vec<_>>());
     shapes.fluid_file = Some(content);
     if mesh.refine > MOST_REFINEMENTS {

@@ -23,7 +23,8 @@ const MOST_BYTES: u64 = 4 << 30;
 /// A file of gmsh with its coordinates in metres, and its bytes.
 pub(super) fn gmsh(name: &FileName, scale: Positive, folder: &Path) -> Result<(GmshFile, Vec<u8>), Finding> {
     let bytes = bytes(name, folder)?;
-    let mut file = GmshFile::parse(&bytes).map_err(|error| Finding::of(&format!("{name}, {error}")))?;
+    let mut file =
+        GmshFile::parse(&bytes).map_err(|error| Finding::of(&error).led_by(&format!("{name}, ")))?;
     for x in file.points.as_flattened_mut() {
         *x *= scale.get();
     }

@@ -8,12 +8,12 @@ use partita_structure::{Patch, Space};
 use super::content::{self, Content};
 use super::read::{self, Input};
 use super::{PATCH_FILE, SOLID_FILE, Shapes};
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::schema::{
     Alignment, ArcPatch, Count, CurvePatch, Degree, Geometry, Positive, Real, RectanglePatch, SolidMesh,
     SplineFile,
 };
-use crate::validate::Check;
 
 /// The space, or what is wrong with it.
 pub(super) fn space(
@@ -57,7 +57,8 @@ fn solid(
     let part = content::choose(file, mesh.surfaces.as_ref(), &mesh.file, check, table)?;
     content.turned = part.is_inverted(2);
     content.touching(&part);
-    let made = part.into_solid_mesh().map_err(|error| Finding::of(&format!("{}: {error}", mesh.file)))?;
+    let made =
+        part.into_solid_mesh().map_err(|error| Finding::of(&error).led_by(&format!("{}: ", mesh.file)))?;
     content.bounds(&made.groups().iter().map(|group| &*group.name).collect::<Vec<_>>());
     shapes.structure_file = Some(content);
     shapes.inputs.push(Input { name: SOLID_FILE, bytes });
@@ -133,14 +134,14 @@ fn from_file(spline: &SplineFile, folder: &Path, inputs: &mut Vec<Input>) -> Res
     let text = std::str::from_utf8(&bytes).map_err(|_| {
         Finding::new(format!("{} is not text", spline.file)).hint("a spline file is TOML: text in UTF-8")
     })?;
-    let patch =
-        file::from_toml::<2>(text).map_err(|error| Finding::of(&format!("{}, {error}", spline.file)))?;
+    let patch = file::from_toml::<2>(text)
+        .map_err(|error| Finding::of(&error).led_by(&format!("{}, ", spline.file)))?;
     if patch.parameters() != 2 {
         return Err(Finding::new(format!("{} holds a curve, not a patch", spline.file))
             .hint("a plane structure is a spline of two parameters: give two degrees and two knot vectors"));
     }
     let patch = patch.on_unit_parameters().map_err(|(parameter, error)| {
-        Finding::of(&format!("{}, knots[{parameter}]: {error}", spline.file))
+        Finding::of(&error).led_by(&format!("{}, knots[{parameter}]: ", spline.file))
     })?;
     let patch = refined(patch, spline)?;
     inputs.push(Input { name: PATCH_FILE, bytes });

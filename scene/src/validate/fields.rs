@@ -1,6 +1,6 @@
 //! Which fields are there, how they are coupled, and what is asked of them.
 
-use super::Check;
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::schema::{Direction, Fluid, FluidTimeScheme, Probe, Scene, Structure, StructureTimeScheme};
 

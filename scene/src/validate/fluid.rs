@@ -2,7 +2,8 @@
 
 use partita_mesh::generate;
 
-use super::{Check, groups};
+use super::groups;
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::schema::{Condition, Fluid, FluidMesh, RectangleMesh, Scene};
 

@@ -1,6 +1,6 @@
 //! Whether every formula has a finite value where the run will use it.
 
-use super::Check;
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::formulas::{faults, initial_fault, times};
 use crate::schema::Scene;

@@ -1,6 +1,6 @@
 //! Whether every name of a boundary group is one of the mesh's, and every group has its condition.
 
-use super::Check;
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::schema::{Condition, Fluid, FluidMesh, Probe, Scene};
 use crate::shapes::Content;

@@ -8,7 +8,7 @@ use partita_mesh::mesh::facet_nodes;
 use partita_mesh::{Mesh, Place};
 use partita_structure::{Boundary, Space};
 
-use super::Check;
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::models;
 use crate::schema::{Condition, Coupling, Fluid, Scene, Structure};

@@ -3,7 +3,8 @@
 use partita_mesh::simplex;
 use partita_mesh::{Mesh, Place};
 
-use super::{Check, fluid as conditions, groups};
+use super::{fluid as conditions, groups};
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::schema::{Fluid, FluidMesh, Line, Probe, Real, Scene};
 use crate::shapes::Content;

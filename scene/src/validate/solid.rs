@@ -3,7 +3,8 @@
 use partita_mesh::Place;
 use partita_structure::{Patch, Space, rigid};
 
-use super::{Check, structure};
+use super::structure;
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::free::{HOLD, MOST_PIECES, in_words};
 use crate::models;

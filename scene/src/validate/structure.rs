@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use partita_numerics::time::GeneralizedAlpha;
 
-use super::Check;
+use crate::check::Check;
 use crate::finding::Finding;
 use crate::schema::{Geometry, Part, Structure, StructureTimeScheme};
 use crate::shapes::Content;

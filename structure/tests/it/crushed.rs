@@ -1,6 +1,7 @@
 //! Deformations that a neo-Hookean solid cannot take.
 use partita_numerics::Field;
 
+use miette::Diagnostic;
 use partita_iga::{Side, build};
 use partita_numerics::newton::{self, Failure, Limit, Problem, Verdict};
 use partita_structure::{
@@ -34,7 +35,7 @@ fn a_block_turned_inside_out_is_refused_with_element_place_and_remedy() {
         assert!((0.0..0.5).contains(&place[0]) && (0.5..1.0).contains(&place[1]), "{place:?}");
         let ResponseError::Crushed { volume_ratio } = source else { panic!("{error}") };
         assert!((volume_ratio + 0.4).abs() < 1e-14, "{error}");
-        assert!(error.to_string().contains("\nhint: "), "{error}");
+        assert!(error.help().is_some(), "{error}");
     }
     assert_eq!(solver.strain_energy().to_bits(), f64::INFINITY.to_bits());
     // From the reference configuration everything goes on.

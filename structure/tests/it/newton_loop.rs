@@ -1,6 +1,7 @@
 //! Newton's method on the structure: its order, its start, its end.
 use partita_numerics::Field;
 
+use miette::Diagnostic;
 use partita_iga::Side;
 use partita_numerics::newton::{self, Bound, Failure, Limit, Problem, Verdict};
 use partita_structure::{
@@ -313,7 +314,8 @@ fn a_body_turned_inside_out_is_an_equilibrium_of_the_law_and_no_solution() {
     let StructureError::Folded { determinant, .. } = refusal else { panic!("{refusal}") };
     assert!((determinant + 1.0).abs() < 1e-12, "{determinant}");
     let message = refusal.to_string();
-    assert!(message.contains(" m is turned inside out: det F = -1.000e0\nhint: "), "{message}");
+    assert!(message.ends_with(" m is turned inside out: det F = -1.000e0"), "{message}");
+    assert!(refusal.help().is_some(), "{message}");
     assert!(mirrored(linear(1.0, 0.3)).verify().is_ok(), "small strains know no orientation");
 }
 

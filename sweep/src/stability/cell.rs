@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use miette::Diagnostic;
 use partita_coupling::record::{IterationRecord, StepRecord};
 use partita_coupling::{Observer, RetryRecord, StepError, StepFailure};
 
@@ -25,17 +26,14 @@ pub(super) fn run(map: &Map, cell: &Cell, stop: &AtomicBool) -> Option<Row> {
 }
 
 fn attempt(map: &Map, cell: &Cell, stop: &AtomicBool) -> Option<Row> {
-    let refused = |text: &str| {
-        let (what, hint) = split(text);
-        Some(Row::empty(Outcome::Refused, &what, &hint))
-    };
+    let refused = |what: &str, hint: &str| Some(Row::empty(Outcome::Refused, &line(what), &line(hint)));
     let resolved = match partita_scene::load(&cell.scene, &cell.overrides) {
         Ok(resolved) => resolved,
-        Err(error) => return refused(&error.to_string()),
+        Err(error) => return refused(&error.to_string(), ""),
     };
     match build::march(&resolved) {
         Ok(run) => Course::new(run, &resolved).finish(map, stop),
-        Err(error) => refused(&error.to_string()),
+        Err(error) => refused(&error.to_string(), &remedy(&error)),
     }
 }
 
@@ -104,13 +102,13 @@ impl<'a> Course<'a> {
             StepFailure::Diverges { .. } | StepFailure::NotFinite { .. } => Outcome::Diverged,
             StepFailure::Participant(_) => Outcome::FieldFailed,
         };
-        let (what, hint) = split(&error.cause.to_string());
+        let what = line(&error.cause.to_string());
         self.row.cause = match error.iteration {
             0 => what,
             iteration if self.coupled => format!("coupling iteration {iteration}: {what}"),
             _ => what,
         };
-        self.row.remedy = hint;
+        self.row.remedy = line(&remedy(error));
         self.row.failing_step = Some(error.step.index);
     }
 
@@ -137,11 +135,14 @@ impl<'a> Course<'a> {
     }
 }
 
-/// What and why, and what to change, each on one line.
-fn split(text: &str) -> (String, String) {
-    let (what, hint) = text.split_once("\nhint: ").unwrap_or((text, ""));
-    let line = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    (line(what), line(hint))
+/// What to change.
+fn remedy(error: &dyn Diagnostic) -> String {
+    error.help().map(|help| help.to_string()).unwrap_or_default()
+}
+
+/// A text on one line.
+fn line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Newton iterations and retries as they happen, those of failed steps among them.

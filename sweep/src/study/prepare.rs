@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use miette::Diagnostic;
 use toml::Spanned;
 
 use super::conduct::{Setting, Standard, Study};
@@ -263,9 +264,8 @@ impl<'a> Reader<'a> {
         self.column(&resolved)?;
         self.window(&resolved, place.clone())?;
         build::march(&resolved).map_err(|error| {
-            let text = error.to_string();
-            let (what, hint) = text.split_once("\nhint: ").unwrap_or((&text, ""));
-            self.source.error(what, place, "this setting cannot be built", hint)
+            let hint = error.help().map(|help| help.to_string()).unwrap_or_default();
+            self.source.error(error.to_string(), place, "this setting cannot be built", hint)
         })?;
         Ok(resolved)
     }

@@ -27,9 +27,28 @@ const RESERVED: [(&str, &[&str]); 5] = [
     ("faer", &["numerics"]),
     ("clap", &["cli", "report"]),
     ("indicatif", &["cli", "report"]),
-    ("miette", &["scene", "partita", "sweep", "cli", "fuzz"]),
+    (
+        "miette",
+        &[
+            "numerics",
+            "iga",
+            "mesh",
+            "fluid",
+            "structure",
+            "coupling",
+            "scene",
+            "partita",
+            "sweep",
+            "testing",
+            "cli",
+            "fuzz",
+        ],
+    ),
     ("toml", &["scene", "partita", "sweep", "iga", "report", "xtask"]),
 ];
+
+/// Dependencies that are a trait and no more unless features are turned on, which belongs to few rooms.
+const DRAWING: [(&str, &[&str]); 1] = [("miette", &["cli", "fuzz"])];
 
 pub(crate) fn check(tree: &Tree) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -93,6 +112,8 @@ struct Dependency {
     line: usize,
     /// Only for tests, benches and examples.
     development: bool,
+    /// Whether it turns on more than the workspace does.
+    has_features: bool,
 }
 
 struct Manifest {
@@ -132,14 +153,15 @@ impl Manifest {
                 let renamed = value.get_ref().get("package").and_then(|package| package.get_ref().as_str());
                 let line = text[..name.span().start].lines().count() + 1;
                 let package = renamed.unwrap_or(name.get_ref()).to_owned();
-                self.dependencies.push(Dependency { package, line, development });
+                let has_features = value.get_ref().get("features").is_some();
+                self.dependencies.push(Dependency { package, line, development, has_features });
             }
         }
     }
 
     fn check(&self, room: &str, known: &BTreeSet<&str>, room_of: &BTreeMap<&str, &str>) -> Vec<Finding> {
         let mut findings = Vec::new();
-        for Dependency { package, line, development } in &self.dependencies {
+        for Dependency { package, line, development, has_features } in &self.dependencies {
             let mut tell = |message: String| findings.push(Finding::at(&self.path, *line, message));
             if let Some(other) = room_of.get(package.as_str()) {
                 if *development && STRANGERS.contains(&(room, other)) {
@@ -154,6 +176,10 @@ impl Manifest {
             if let Some((name, rooms)) = reserved.filter(|(_, rooms)| !development && !rooms.contains(&room))
             {
                 tell(format!("{name} belongs to {}", rooms.join(", ")));
+            }
+            let drawing = DRAWING.iter().find(|(name, rooms)| name == package && !rooms.contains(&room));
+            if let Some((name, rooms)) = drawing.filter(|_| *has_features && !development) {
+                tell(format!("features of {name} belong to {}", rooms.join(", ")));
             }
         }
         findings
@@ -259,6 +285,14 @@ mod tests {
         let found =
             messages("[dependencies]\nfaer = \"0.24\"\n\n[dev-dependencies]\nclap = \"4\"\n", NO_SOURCE);
         assert_eq!(found, ["fluid/Cargo.toml:5: faer belongs to numerics"]);
+    }
+
+    #[test]
+    fn libraries_take_the_trait_of_errors_and_not_what_draws_them() {
+        assert_eq!(messages("[dependencies]\nmiette.workspace = true\n", NO_SOURCE), [""; 0]);
+        let drawing = "[dependencies]\nmiette = { workspace = true, features = [\"fancy\"] }\n";
+        let found = messages(drawing, NO_SOURCE);
+        assert_eq!(found, ["fluid/Cargo.toml:5: features of miette belong to cli, fuzz"]);
     }
 
     #[test]

@@ -6,6 +6,8 @@ use proptest::prelude::*;
 
 use super::*;
 
+type Row = Vec<(usize, f64)>;
+
 /// Gauss points and weights on [0, 1], exact to degree 5.
 const RULE: [(f64, f64); 3] =
     [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];

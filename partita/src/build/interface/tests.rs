@@ -55,7 +55,7 @@ fn loads(
     let count = points.len();
     let facets: Vec<[usize; 2]> =
         (0..if closed { count } else { count - 1 }).map(|i| [i, (i + 1) % count]).collect();
-    let nodal = rows(structure.interface_rows(points, 1e-9).expect("points on the interface"));
+    let nodal = structure.interface_rows(points, 1e-9).expect("points on the interface");
     let of_points = if by_mortar {
         mortar(points.to_vec(), facets.clone(), nodal, structure, 1e-9).expect("rows")
     } else {
@@ -83,8 +83,8 @@ fn consistent(
         for (s, weight) in gauss::line(8) {
             let [place, normal] = at(start + s * (end - start));
             let row = structure.interface_rows(&[place], 1e-6).expect("a place on the interface").remove(0);
-            for (node, value) in row.nodes.iter().zip(row.weights) {
-                (0..2).for_each(|c| loads[*node][c] += (end - start) * weight * value * normal[c]);
+            for (node, value) in row {
+                (0..2).for_each(|c| loads[node][c] += (end - start) * weight * value * normal[c]);
             }
         }
     }

@@ -30,9 +30,8 @@ pub enum SetupError {
         transfers: usize,
     },
     /// Both participants have one name, by which records could not tell them apart.
-    #[error(
-        "both participants are called `{name}`\nhint: records list the fields by name: give one of them another"
-    )]
+    #[error("both participants are called `{name}`")]
+    #[diagnostic(help("records list the fields by name: give one of them another"))]
     SameName {
         /// The name.
         name: String,

@@ -126,7 +126,7 @@ impl<'a> Session<'a> {
         let outcome = self.march_to(last, watcher);
         watcher.ends();
         let summary = self.run.end(outcome?)?;
-        Ok(summary.expect("a session has a folder"))
+        summary.ok_or(RunError::NoFolder)
     }
 
     fn march_to(&mut self, last: usize, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {

@@ -157,7 +157,7 @@ impl Accelerator for Faulty {
             self.inner.step_failed();
         }
     }
-    fn name(&self) -> &str {
+    fn name(&self) -> &'static str {
         "faulty"
     }
     fn save(&self) -> Vec<u8> {

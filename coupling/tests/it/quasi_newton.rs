@@ -199,7 +199,7 @@ impl Accelerator for Textbook {
     fn step_failed(&mut self) {
         (self.v, self.w, self.last) = (Vec::new(), Vec::new(), None);
     }
-    fn name(&self) -> &str {
+    fn name(&self) -> &'static str {
         "textbook"
     }
     fn save(&self) -> Vec<u8> {

@@ -216,14 +216,14 @@ impl<A: Participant, B: Participant> March<A, B> {
     /// # Errors
     /// If the state belongs to other choices, other participants or another interface. The run is of no use then.
     pub fn restore(&mut self, state: &MarchState) -> Result<(), SetupError> {
-        let (saved, here) = (state.past.newest().displacement.len(), self.interface.x.len());
-        if saved != here {
-            return Err(SetupError::state("interface", format!("{saved} unknowns, not {here}")));
-        }
         let accelerator = &mut self.choices.accelerator;
         let learned = state.accelerator.bytes_of(accelerator.name())?;
         let [first, second] = &state.participants;
         let [first, second] = [first.bytes_of(self.first.name())?, second.bytes_of(self.second.name())?];
+        let (saved, here) = (state.past.newest().displacement.len(), self.interface.x.len());
+        if saved != here {
+            return Err(SetupError::state("interface", format!("{saved} unknowns, not {here}")));
+        }
         accelerator.restore(learned)?;
         self.first.restore(first)?;
         self.second.restore(second)?;

@@ -28,7 +28,8 @@ impl Accelerator for BarzilaiBorwein {
     fn save(&self) -> Vec<u8> { state::encode(&self.1) }
     fn restore(&mut self, bytes: &[u8]) -> Result<(), SetupError> {
         self.1 = state::decode(self.name(), bytes)?;
-        Ok(self.step_failed())
+        self.step_failed();
+        Ok(())
     }
 }
 
@@ -40,5 +41,6 @@ pub(crate) fn build() -> Result<Run, Box<dyn std::error::Error>> {
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut run = build()?;
     while run.step()? {}
-    Ok(println!("the last step took {} iterations", run.march().history().iterations.len()))
+    println!("the last step took {} iterations", run.march().history().iterations.len());
+    Ok(())
 }

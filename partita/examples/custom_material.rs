@@ -41,5 +41,6 @@ pub(crate) fn build() -> Result<Run, Box<dyn std::error::Error>> {
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut run = build()?;
     while run.step()? {}
-    Ok(println!("strain energy {:.6} J/m", run.structure().expect("it has one").strain_energy()))
+    println!("strain energy {:.6} J/m", run.structure().expect("it has one").strain_energy());
+    Ok(())
 }

@@ -40,5 +40,6 @@ pub(crate) fn build() -> Result<Run, Box<dyn std::error::Error>> {
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut run = build()?;
     while run.step()? {}
-    Ok(println!("the piston is at {:.6} m", run.march().interface().x_tilde[1]))
+    println!("the piston is at {:.6} m", run.march().interface().x_tilde[1]);
+    Ok(())
 }

@@ -3,6 +3,7 @@
 mod tank;
 
 use partita::coupling::{SetupError, state};
+use partita::fluid::FluidSolver;
 use partita::{Probe, Run};
 
 /// The energy `[J/m]` and the time `[s]`.
@@ -14,7 +15,7 @@ impl Probe for Peak {
         vec!["energy".to_owned(), "time".to_owned()]
     }
     fn values(&mut self, run: &Run) -> Vec<f64> {
-        let energy = run.fluid().map_or(0.0, |fluid| fluid.kinetic_energy());
+        let energy = run.fluid().map_or(0.0, FluidSolver::kinetic_energy);
         if energy > self.0[0] {
             self.0 = [energy, run.clock().time];
         }
@@ -37,5 +38,6 @@ pub(crate) fn build() -> Result<Run, Box<dyn std::error::Error>> {
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut run = build()?;
     while run.step()? {}
-    Ok(println!("largest kinetic energy, and when: {:?}", run.probe("peak")))
+    println!("largest kinetic energy, and when: {:?}", run.probe("peak"));
+    Ok(())
 }

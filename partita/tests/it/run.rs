@@ -93,7 +93,7 @@ fn settings_and_transfer_can_be_chosen() {
         coupled().with_transfer(TransferMethod::Interpolation).expect("it fits").with_steps(1, 0.01);
     let [slow_tip, fast_tip, other_tip] = [&mut slow, &mut fast, &mut interpolated].map(finish);
     assert!((slow_tip / fast_tip - 1.0).abs() < 1e-2, "{slow_tip} {fast_tip}");
-    assert!(other_tip != fast_tip, "another operator leads to other bits");
+    assert_ne!(other_tip.to_bits(), fast_tip.to_bits(), "another operator leads to other bits");
     let iterations = |run: &Run| run.march().history().iterations.len();
     assert!(iterations(&slow) > iterations(&fast));
     let wrong = Acceleration::IqnIls(QuasiNewton { omega_0: -1.0, ..QuasiNewton::default() });
@@ -119,12 +119,12 @@ fn one_field_alone_and_one_way_are_named() {
 
     let bottom = tank::structure(tank::rubber()).expect("a bottom");
     let mut structure = Run::structure_alone(bottom).expect("it runs").with_steps(2, 0.1);
-    assert_eq!(finish(&mut structure), 0.0, "nothing loads it");
+    assert!(finish(&mut structure).abs() < f64::MIN_POSITIVE, "nothing loads it");
 
     let bottom = tank::structure(tank::rubber()).expect("a bottom");
     let fluid = cavity(BoundaryCondition::RigidInterface);
     let mut one_way = Run::one_way(fluid, bottom).expect("they fit").with_steps(2, 0.1);
-    assert!(finish(&mut one_way) != 0.0, "the pressure loads it");
+    assert!(finish(&mut one_way).abs() > 0.0, "the pressure loads it");
     assert!(one_way.march().interface().x.is_empty(), "nothing comes back");
 }
 

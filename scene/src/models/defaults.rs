@@ -3,7 +3,7 @@
 //! Each comparison goes through the whole settings of a library, so that a key added on either side is compared as well.
 
 use partita_coupling::accelerate::{Acceleration, QuasiNewton};
-use partita_coupling::{AtLimit, Predictor};
+use partita_coupling::{AtLimit, CouplingSettings, Predictor};
 use partita_fluid::settings::FluidSettings;
 use partita_iga::build::Alignment;
 use partita_mesh::generate::{Diagonal, RectangleMesh, rectangle};
@@ -108,4 +108,11 @@ fn a_coupling_that_says_nothing_is_solved_as_the_library_would() {
 #[test]
 fn a_strip_lies_about_its_curve_as_in_the_library() {
     assert_eq!(Alignment::from(schema::Alignment::default()), Alignment::default());
+}
+
+/// An acceleration is the one thing that a coupled scene has to name.
+#[test]
+fn a_coupling_that_says_nothing_else_is_that_of_the_library() {
+    let scene: schema::Coupling = part(&json!({ "acceleration": { "iqn_imvls": {} } }));
+    assert_eq!(coupling::settings(&scene), CouplingSettings::default());
 }

@@ -75,7 +75,7 @@ set = ["structure.body_force=[0, -$(x)]"]
 [[parameter]]
 name = "modulus"
 values = [1e4, 1e5, 1e6]
-set = ["structure.material.saint_venant_kirchhoff.young_modulus=$(x)", "structure.newton.max_iterations=25"]
+set = ["structure.material.saint_venant_kirchhoff.young_modulus=$(x)", "structure.newton.max_iterations=13"]
 
 [[choice]]
 name = "full Newton"

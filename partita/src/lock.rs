@@ -17,8 +17,8 @@ impl Locked {
     /// # Errors
     /// When it is taken.
     pub fn take(file: File) -> Result<Self, Taken> {
-        let taken = file.try_lock();
-        Self::of(file, taken)
+        let is_taken = matches!(file.try_lock(), Err(TryLockError::WouldBlock));
+        if is_taken { Err(Taken) } else { Ok(Self(file)) }
     }
 
     /// Takes part in the lock of `file` without waiting: others may, too, as long as nobody holds it alone.
@@ -26,15 +26,8 @@ impl Locked {
     /// # Errors
     /// When somebody does.
     pub fn share(file: File) -> Result<Self, Taken> {
-        let taken = file.try_lock_shared();
-        Self::of(file, taken)
-    }
-
-    fn of(file: File, taken: Result<(), TryLockError>) -> Result<Self, Taken> {
-        match taken {
-            Err(TryLockError::WouldBlock) => Err(Taken),
-            Ok(()) | Err(TryLockError::Error(_)) => Ok(Self(file)),
-        }
+        let is_taken = matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock));
+        if is_taken { Err(Taken) } else { Ok(Self(file)) }
     }
 }
 

@@ -23,15 +23,21 @@ nothing() {
     exit 0
 }
 
+has_slurm() {
+    for program in slurmctld slurmd sbatch scancel munged; do
+        command -v "$program" >/dev/null || return 1
+    done
+}
+
 [ "$(id -u)" = 0 ] || nothing "Slurm can be started by root only"
 packages=(slurmctld slurmd slurm-client munge)
-if ! command -v slurmctld slurmd sbatch munged >/dev/null; then
+if ! has_slurm; then
     command -v apt-get >/dev/null || nothing "there is no apt-get to install ${packages[*]}"
     export DEBIAN_FRONTEND=noninteractive
     { apt-get update && apt-get install -y --no-install-recommends "${packages[@]}"; } >/dev/null 2>&1 ||
         nothing "${packages[*]} cannot be installed"
 fi
-command -v slurmctld slurmd sbatch munged >/dev/null || nothing "Slurm is not installed"
+has_slurm || nothing "Slurm is not installed"
 [ -x "$partita" ] || { echo "slurm.sh: $partita is not a program: build it first, or name it" >&2; exit 1; }
 
 dir=$(mktemp -d)

@@ -124,8 +124,8 @@ fn submit(arguments: &Submit) -> Result<ExitCode, Failure> {
     if executed.submitted.is_empty() {
         eprintln!("all {} runs have a result; `partita sweep collect` makes the table", sweep.runs().len());
     }
-    let jobs: String = executed.submitted.iter().map(|(job, _)| format!("{job}\n")).collect();
-    print(&jobs)?;
+    let jobs: Vec<&str> = executed.submitted.iter().map(|(job, _)| job.as_str()).collect();
+    print(&jobs.iter().flat_map(|job| [job, "\n"]).collect::<String>())?;
     Ok(ExitCode::SUCCESS)
 }
 

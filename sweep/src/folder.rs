@@ -90,20 +90,14 @@ impl Folder {
         fs::create_dir_all(&runs).map_err(refused(&runs))?;
         let path = runs.join(files::LOCK);
         let in_use = |_| SweepError::InUse { dir: dir.to_owned() };
-        let mut lock = None;
         if force {
             let alone = Locked::take(open_lock(&path).map_err(refused(&path))?).map_err(in_use)?;
             files::remove_results(dir)?;
-            lock = (access == Access::Alone).then_some(alone);
+            drop(alone);
         }
-        let lock = match lock {
-            Some(lock) => lock,
-            None => {
-                let file = open_lock(&path).map_err(refused(&path))?;
-                let locked = if access == Access::Alone { Locked::take(file) } else { Locked::share(file) };
-                locked.map_err(in_use)?
-            }
-        };
+        let file = open_lock(&path).map_err(refused(&path))?;
+        let taken = if access == Access::Alone { Locked::take(file) } else { Locked::share(file) };
+        let lock = taken.map_err(in_use)?;
         let (before, head) = (Head::read(dir), Head::of(sweep));
         let folder = Self { dir: dir.to_owned(), lock: Some(lock), is_new: before.is_none() };
         if before.is_some_and(|before| before != head) {

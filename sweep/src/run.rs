@@ -10,6 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use partita::build::{self, BuildError, FieldMarch as Fields};
 use partita_coupling::{StepError, StepFailure};
 use partita_fluid::FluidSolver;
+use partita_numerics::Field;
 use partita_scene::Resolved;
 use partita_structure::StructureSolver;
 

@@ -49,26 +49,34 @@ enum Place {
     Slurm,
 }
 
+/// What an entry of a place is.
+enum Entry {
+    Foreign,
+    File,
+    Folder(Place),
+}
+
 impl Place {
-    /// The place that an entry of this place is, if a sweep writes one of that name there; `None` within for a file.
-    fn entry(self, name: &str) -> Option<Option<Self>> {
+    /// What an entry of this name is.
+    fn entry(self, name: &str) -> Entry {
         let is_fingerprint = |name: &str| name.len() == 16 && name.bytes().all(|b| b.is_ascii_hexdigit());
         // The second is what a network file system leaves of a file that is still open.
-        if (name.starts_with('.') && name.ends_with(".part")) || name.starts_with(".nfs") {
-            return Some(None);
+        let ends = |ending: &str| name.strip_suffix(ending).is_some();
+        if (name.starts_with('.') && ends(".part")) || name.starts_with(".nfs") {
+            return Entry::File;
         }
         let is_known = match self {
-            Self::Top if name == RUNS => return Some(Some(Self::Runs)),
-            Self::Top if name == SLURM => return Some(Some(Self::Slurm)),
-            Self::Runs if is_fingerprint(name) => return Some(Some(Self::Run)),
+            Self::Top if name == RUNS => return Entry::Folder(Self::Runs),
+            Self::Top if name == SLURM => return Entry::Folder(Self::Slurm),
+            Self::Runs if is_fingerprint(name) => return Entry::Folder(Self::Run),
             Self::Top => [STUDY, ROWS, DIAGRAM, MAP, CELLS, PICTURE, EARLIER].contains(&name),
             Self::Runs => {
                 [HEAD, LOCK].contains(&name) || name.strip_suffix(".json").is_some_and(is_fingerprint)
             }
             Self::Run => [LOCK, RESULT].contains(&name) || checkpoint::FILES.contains(&name),
-            Self::Slurm => name.starts_with("array-") && (name.ends_with(".sh") || name.ends_with(".log")),
+            Self::Slurm => name.starts_with("array-") && (ends(".sh") || ends(".log")),
         };
-        is_known.then_some(None)
+        if is_known { Entry::File } else { Entry::Foreign }
     }
 }
 
@@ -81,13 +89,13 @@ fn walk(
     let Ok(entries) = fs::read_dir(dir) else { return Ok(()) };
     for entry in entries.flatten() {
         let path = entry.path();
-        match entry.file_name().to_str().and_then(|name| place.entry(name)) {
-            None => return Err(SweepError::Foreign { path }),
-            Some(Some(within)) => {
+        match entry.file_name().to_str().map_or(Entry::Foreign, |name| place.entry(name)) {
+            Entry::Foreign => return Err(SweepError::Foreign { path }),
+            Entry::Folder(within) => {
                 walk(&path, within, each)?;
                 each(&path, true)?;
             }
-            Some(None) => each(&path, false)?,
+            Entry::File => each(&path, false)?,
         }
     }
     Ok(())

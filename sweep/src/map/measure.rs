@@ -1,8 +1,8 @@
 //! What is measured in a cell beside its iterations.
-use partita_numerics::Field;
 
 use partita_fluid::FluidSolver;
 use partita_mesh::Mesh;
+use partita_numerics::Field;
 use partita_structure::StructureSolver;
 
 use partita::build::FieldMarch;

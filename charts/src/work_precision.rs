@@ -14,8 +14,27 @@ pub struct Point {
     pub name: String,
     /// Distance from the truth, zero or above.
     pub error: f64,
-    /// Processor time \[s\].
+    /// Processor time \[s\], or what else stands for the cost, see [`Cost`].
     pub cpu_seconds: f64,
+}
+
+/// What stands for the cost of a setting.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cost {
+    /// Processor time \[s\].
+    CpuSeconds,
+    /// Unknowns times Newton iterations, where no time was measured.
+    Work,
+}
+
+impl Cost {
+    /// The name of the axis.
+    pub(crate) fn axis(self) -> &'static str {
+        match self {
+            Self::CpuSeconds => "CPU time [s]",
+            Self::Work => "unknowns times Newton iterations",
+        }
+    }
 }
 
 /// Settings of one kind, from the coarsest to the finest.

@@ -1,9 +1,13 @@
 //! The command line.
 
+mod sweep;
+
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+
+pub(crate) use sweep::{Collect, List, Make, Output, Stability, Study, Submit, Sweep, SweepFile};
 
 /// Two-dimensional fluid-structure interaction with partitioned solvers.
 #[derive(Debug, Parser)]
@@ -31,6 +35,9 @@ pub(crate) enum Command {
     Study(Study),
     /// Sweep two parameters of a scene and map where it converges.
     Stability(Stability),
+    /// Plan, run, submit or collect the many runs of a study or map, one by one or all at once.
+    #[command(subcommand)]
+    Sweep(Sweep),
 }
 
 #[derive(Debug, Args)]
@@ -95,44 +102,6 @@ pub(crate) enum Rows {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct Study {
-    /// Study file: a scene, its refinements and choices, and the reference they are compared with.
-    #[arg(value_name = "STUDY")]
-    pub(crate) file: PathBuf,
-    /// Output folder [default: runs/<name of the study>].
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Replace an earlier study in the output folder.
-    #[arg(long)]
-    pub(crate) force: bool,
-    /// Find the cheapest setting with at most this error, instead of the error named in the study.
-    #[arg(long, value_name = "ERROR", value_parser = positive)]
-    pub(crate) wanted: Option<f64>,
-    /// Show no progress bar and print nothing.
-    #[arg(long)]
-    pub(crate) quiet: bool,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct Stability {
-    /// Map file: a scene, two parameters and the choices to compare; see docs/stability.md.
-    #[arg(value_name = "MAP")]
-    pub(crate) path: PathBuf,
-    /// Output folder; cells that are finished there are not run again [default: runs/<name of the map>].
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Number of cells to run at the same time; it does not affect the results [default: number of processors].
-    #[arg(long, value_name = "N")]
-    pub(crate) jobs: Option<NonZeroUsize>,
-    /// Run all cells again.
-    #[arg(long)]
-    pub(crate) force: bool,
-    /// Show no progress bar and print nothing.
-    #[arg(long)]
-    pub(crate) quiet: bool,
-}
-
-#[derive(Debug, Args)]
 pub(crate) struct SceneArguments {
     /// Scene file, or a folder that contains a scene.toml.
     #[arg(value_name = "SCENE")]
@@ -157,13 +126,4 @@ pub(crate) struct Manner {
     /// Print the summary as JSON.
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    let number: f64 = text.parse().map_err(|_| "this is not a number".to_owned())?;
-    if number > 0.0 && number.is_finite() {
-        Ok(number)
-    } else {
-        Err("this is not a number above zero".to_owned())
-    }
 }

@@ -10,14 +10,13 @@ use partita::checkpoint::CheckpointError;
 use partita::output::{self, OutputError};
 use partita::scene::SceneError;
 use partita::session::RunError;
-use partita_sweep::stability::StoreError;
-use partita_sweep::study::{StudyError, StudyFailure};
+use partita_sweep::SweepError;
 use serde_json::{Value, json};
 
 /// The scene or the command line is wrong.
 pub(crate) const WRONG_INPUT: u8 = 2;
 /// The run failed.
-const FAILED_RUN: u8 = 3;
+pub(crate) const FAILED_RUN: u8 = 3;
 
 /// Why the program ends without success.
 #[derive(Debug)]
@@ -101,16 +100,6 @@ impl From<BuildError> for Failure {
     }
 }
 
-impl From<StoreError> for Failure {
-    fn from(error: StoreError) -> Self {
-        let code = match error {
-            StoreError::Foreign { .. } | StoreError::InUse { .. } => WRONG_INPUT,
-            StoreError::File { .. } => FAILED_RUN,
-        };
-        Self { code, report: Complaint::of_sweep(&error).into() }
-    }
-}
-
 impl From<OutputError> for Failure {
     fn from(error: OutputError) -> Self {
         match &error {
@@ -133,19 +122,10 @@ impl From<OutputError> for Failure {
     }
 }
 
-impl From<StudyError> for Failure {
-    fn from(error: StudyError) -> Self {
-        Self { code: WRONG_INPUT, report: error.into() }
-    }
-}
-
-impl From<StudyFailure> for Failure {
-    fn from(error: StudyFailure) -> Self {
-        let code = match &error {
-            StudyFailure::Occupied { .. } | StudyFailure::Write { .. } => WRONG_INPUT,
-            StudyFailure::Reference { .. } => FAILED_RUN,
-        };
-        Self { code, report: Complaint::of_sweep(&error).into() }
+impl From<SweepError> for Failure {
+    fn from(error: SweepError) -> Self {
+        let code = if error.is_wrong_input() { WRONG_INPUT } else { FAILED_RUN };
+        Self { code, report: error.into() }
     }
 }
 
@@ -180,13 +160,6 @@ impl Complaint {
     fn of(error: &dyn Diagnostic) -> Self {
         let hint = error.help().map(|help| help.to_string());
         Self { what: error.to_string(), hint: hint.unwrap_or_default() }
-    }
-
-    /// The message of a sweep: what and where, then a line `hint: ...`.
-    fn of_sweep(error: &impl fmt::Display) -> Self {
-        let text = error.to_string();
-        let (what, hint) = text.split_once("\nhint: ").unwrap_or((&text, ""));
-        Self { what: what.to_owned(), hint: hint.to_owned() }
     }
 }
 

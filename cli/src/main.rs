@@ -4,6 +4,7 @@ mod args;
 mod failure;
 mod progress;
 mod standing;
+mod sweeps;
 
 use std::fs;
 use std::io::{self, ErrorKind, Write as _};
@@ -18,11 +19,8 @@ use partita::scene::Resolved;
 use partita::session::{Options, RunError, Session};
 use partita::warning::{self, Warning};
 use partita::{build, check, output, plan, scene};
-use partita_sweep::{stability, study};
 
-use args::{
-    Arguments, Check, Command, Manner, Plan, Resume, Rows, Run, SceneArguments, Stability, Study, Table,
-};
+use args::{Arguments, Check, Command, Manner, Plan, Resume, Rows, Run, SceneArguments, Table};
 use failure::Failure;
 use progress::Progress;
 use standing::Standing;
@@ -41,8 +39,9 @@ fn main() -> ExitCode {
         Command::Plan(arguments) => plan(&arguments),
         Command::Resume(arguments) => resume(&arguments, clock),
         Command::Table(arguments) => table(&arguments),
-        Command::Study(arguments) => study(&arguments),
-        Command::Stability(arguments) => stability(&arguments),
+        Command::Study(arguments) => sweeps::study(&arguments),
+        Command::Stability(arguments) => sweeps::stability(&arguments),
+        Command::Sweep(command) => sweeps::sweep(&command),
     };
     outcome.unwrap_or_else(|failure| failure.show())
 }
@@ -181,52 +180,6 @@ fn beyond_the_end(manner: &Manner, resolved: &Resolved) {
         eprintln!(
             "note: --steps {asked} asks for more than the {steps} steps of the scene, where the run ends; `time.steps` says how many there are"
         );
-    }
-}
-
-fn study(arguments: &Study) -> Result<ExitCode, Failure> {
-    let study = study::Study::load(&arguments.file)?.with_wanted(arguments.wanted);
-    let dir = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(study.name()));
-    stop_when_interrupted();
-    let mut tell = |line: &str| {
-        if !arguments.quiet {
-            eprintln!("{line}");
-        }
-    };
-    let manner = study::Manner { force: arguments.force, stop: &STOP, tell: &mut tell };
-    let report = study.conduct(&dir, manner)?;
-    if !arguments.quiet {
-        eprintln!("output in {}", dir.display());
-        print(&format!("{}\n{}", report.table().to_plain(), report.answer()))?;
-    }
-    Ok(if report.interrupted { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
-}
-
-fn stability(arguments: &Stability) -> Result<ExitCode, Failure> {
-    let map = stability::Map::load(&arguments.path)?;
-    let dir = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(&map.name));
-    let processors = || std::thread::available_parallelism().map_or(1, Into::into);
-    stop_when_interrupted();
-    let options = stability::Options {
-        jobs: arguments.jobs.map_or_else(processors, Into::into),
-        fresh: arguments.force,
-        stop: &STOP,
-    };
-    match stability::run(&map, &dir, options, &mut Progress::new(arguments.quiet))? {
-        stability::Ending::Finished(rows) => {
-            if !arguments.quiet {
-                print(&stability::summary(&map, &rows))?;
-                eprintln!("output in {}", dir.display());
-            }
-            Ok(ExitCode::SUCCESS)
-        }
-        stability::Ending::Interrupted(finished) => {
-            eprintln!(
-                "{finished} of {} cells are finished and kept; the same command goes on from there",
-                map.cells.len()
-            );
-            Ok(ExitCode::from(INTERRUPTED))
-        }
     }
 }
 

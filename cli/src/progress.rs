@@ -69,6 +69,12 @@ impl Watcher for Progress {
         self.bar.set_position(done as u64);
     }
 
+    fn finishes(&mut self, line: &str) {
+        if !self.quiet {
+            self.note(line);
+        }
+    }
+
     fn note(&mut self, line: &str) {
         self.bar.suspend(|| eprintln!("{line}"));
     }

@@ -31,7 +31,7 @@ pub const PREVIOUS: &str = "checkpoint.previous.bin";
 
 const TEMPORARY: &str = "checkpoint.tmp.bin";
 /// All names that checkpoints have in a folder.
-pub(crate) const FILES: [&str; 3] = [LATEST, PREVIOUS, TEMPORARY];
+pub const FILES: [&str; 3] = [LATEST, PREVIOUS, TEMPORARY];
 const MAGIC: [u8; 8] = *b"PARTITA\n";
 /// Rises with every change of the layout or of a state that a checkpoint holds.
 const VERSION: u32 = 3;

@@ -17,10 +17,17 @@ impl Locked {
     /// # Errors
     /// When it is taken.
     pub fn take(file: File) -> Result<Self, Taken> {
-        match file.try_lock() {
-            Err(TryLockError::WouldBlock) => Err(Taken),
-            Ok(()) | Err(TryLockError::Error(_)) => Ok(Self(file)),
-        }
+        let is_taken = matches!(file.try_lock(), Err(TryLockError::WouldBlock));
+        if is_taken { Err(Taken) } else { Ok(Self(file)) }
+    }
+
+    /// Takes part in the lock of `file` without waiting: others may, too, as long as nobody holds it alone.
+    ///
+    /// # Errors
+    /// When somebody does.
+    pub fn share(file: File) -> Result<Self, Taken> {
+        let is_taken = matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock));
+        if is_taken { Err(Taken) } else { Ok(Self(file)) }
     }
 }
 
@@ -62,5 +69,17 @@ mod tests {
         drop(locked);
         assert!(Locked::take(open()).is_ok(), "it is free");
         drop(copy);
+    }
+
+    #[test]
+    fn a_lock_is_shared_by_many_or_held_by_one() {
+        let file = tempfile::NamedTempFile::new().expect("a temporary file");
+        let open = || File::open(file.path()).expect("a file");
+        let both = [Locked::share(open()).expect("free"), Locked::share(open()).expect("shared")];
+        assert!(Locked::take(open()).is_err(), "two share it");
+        drop(both);
+        let alone = Locked::take(open()).expect("free");
+        assert!(Locked::share(open()).is_err(), "one holds it");
+        drop(alone);
     }
 }

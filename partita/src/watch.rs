@@ -24,6 +24,11 @@ pub trait Watcher {
         let _ = done;
     }
 
+    /// A run of a sweep has ended, and came to this.
+    fn finishes(&mut self, line: &str) {
+        let _ = line;
+    }
+
     /// Something a person should read.
     fn note(&mut self, line: &str) {
         let _ = line;

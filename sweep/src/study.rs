@@ -1,4 +1,4 @@
-//! Accuracy against time: one scene at many settings, each with its error and its CPU time.
+//! Accuracy against cost: one scene at many settings, each with its error and what it took.
 //!
 //! A study file names a scene, choices (curves) and refinements (their points), what is measured, and what it is measured
 //! against:
@@ -30,20 +30,136 @@
 //! ]
 //! ```
 //!
-//! [`Study::load`] reads it and builds every setting once, so that nothing is run or written before all of them are sound;
-//! [`Study::conduct`] runs them. Every row goes to the system as soon as it is measured. A step that fails is repeated in halves
-//! where the setting's scene has `[time.retry]`; what was tried in vain counts in the time.
+//! A run keeps the values of the column; errors are made of them when the results are collected, so that another quantity, window
+//! or wanted error runs nothing again. A step that fails is repeated in halves where the setting's scene has `[time.retry]`; what
+//! was tried in vain counts in the time.
 
-mod conduct;
-mod error;
-mod file;
-mod folder;
-mod measure;
-mod prepare;
+mod answer;
 mod quantity;
 mod report;
 
-pub use conduct::{Manner, Setting, Study};
-pub use error::{StudyError, StudyFailure};
-pub use folder::{DIAGRAM, ROWS, STUDY};
-pub use report::{Report, Row};
+use crate::error::SweepError;
+use crate::result::{Measured, RunResult, Series};
+pub(crate) use quantity::{Quantity, Truth};
+pub use report::{Numbers, Report, Row};
+
+/// What is special about a sweep that is a study.
+#[derive(Debug, Clone)]
+pub struct Study {
+    pub(crate) quantity: Quantity,
+    pub(crate) wanted: Option<f64>,
+    pub(crate) reference: Reference,
+    pub(crate) settings: Vec<Setting>,
+}
+
+/// One point of a curve.
+#[derive(Debug, Clone)]
+pub(crate) struct Setting {
+    pub(crate) choice: String,
+    pub(crate) refinement: String,
+    /// The index of its run.
+    pub(crate) run: usize,
+}
+
+/// What errors are measured against: a value, or runs by their index.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Reference {
+    Value { value: f64, uncertainty: f64 },
+    Run { run: usize, check: Option<usize> },
+}
+
+const REFERENCE: &str = "the reference run";
+const CHECK: &str = "the run that checks the reference";
+
+impl Study {
+    /// Asks for another error than the file does.
+    pub fn ask_for(&mut self, wanted: Option<f64>) {
+        self.wanted = wanted.or(self.wanted);
+    }
+
+    /// Whether a run is one that errors are measured against.
+    pub(crate) fn is_measured_against(&self, run: usize) -> bool {
+        matches!(self.reference, Reference::Run { run: fine, check } if run == fine || Some(run) == check)
+    }
+
+    /// What errors are measured against, and how well that is known; `None` while a run of it has no result.
+    ///
+    /// # Errors
+    /// When the run failed.
+    pub(crate) fn truth(
+        &self,
+        result: &dyn Fn(usize) -> Option<RunResult>,
+    ) -> Result<Option<(Truth, f64)>, SweepError> {
+        let (run, check) = match self.reference {
+            Reference::Value { value, uncertainty } => return Ok(Some((Truth::Value(value), uncertainty))),
+            Reference::Run { run, check } => (run, check),
+        };
+        let Some(fine) = result(run) else { return Ok(None) };
+        let truth = Truth::Run(self.standard(REFERENCE, &fine)?);
+        let Some(check) = check else { return Ok(Some((truth, 0.0))) };
+        let Some(coarse) = result(check) else { return Ok(None) };
+        let distance = self.quantity.error(&self.standard(CHECK, &coarse)?, &truth);
+        let uncertainty = distance.map_err(|error| failed(CHECK, &error.to_string()))?;
+        Ok(Some((truth, uncertainty)))
+    }
+
+    /// The values of a run that is measured against.
+    fn standard(&self, name: &str, result: &RunResult) -> Result<Series, SweepError> {
+        if let Some(failure) = &result.failure {
+            return Err(failed(name, &failure.what));
+        }
+        let series = series(result);
+        self.quantity.of(series).map_err(|error| failed(name, &error.to_string()))?;
+        match result.counts.unconverged_steps {
+            0 => Ok(series.clone()),
+            steps => Err(failed(name, &format!("{steps} steps did not converge"))),
+        }
+    }
+
+    /// What is said when a run has its result.
+    pub(crate) fn line(
+        &self,
+        name: &str,
+        run: usize,
+        result: &dyn Fn(usize) -> Option<RunResult>,
+    ) -> Option<String> {
+        let seconds = |found: &RunResult| match found.cpu_seconds {
+            Some(seconds) => format!("{seconds:.1} s"),
+            None => "finished".to_owned(),
+        };
+        match self.reference {
+            Reference::Run { run: fine, .. } if run == fine => {
+                return Some(format!("reference: {}", seconds(&result(run)?)));
+            }
+            Reference::Run { check: Some(check), .. } if run == check => {
+                let found = result(run)?;
+                let distance = match self.truth(result) {
+                    Ok(Some((_, uncertainty))) => format!(", {uncertainty:.1e} from it"),
+                    _ => String::new(),
+                };
+                return Some(format!("check of the reference: {}{distance}", seconds(&found)));
+            }
+            _ => {}
+        }
+        let at = self.settings.iter().position(|setting| setting.run == run)?;
+        let setting = &self.settings[at];
+        let words = match self.truth(result) {
+            Ok(Some((truth, _))) => Row::of(self, name, setting, &result(run)?, &truth).line(),
+            _ => format!("{}, {}: finished", setting.choice, setting.refinement),
+        };
+        Some(format!("{} of {}: {words}", at + 1, self.settings.len()))
+    }
+}
+
+/// What a run of a study has measured.
+pub(crate) fn series(result: &RunResult) -> &Series {
+    const NONE: &Series = &Series { times: Vec::new(), values: Vec::new() };
+    match &result.measured {
+        Measured::History(series) => series,
+        Measured::Health(_) => NONE,
+    }
+}
+
+fn failed(run: &str, cause: &str) -> SweepError {
+    SweepError::Reference { run: run.to_owned(), cause: cause.lines().next().unwrap_or_default().to_owned() }
+}

@@ -1,7 +1,7 @@
 //! The work-precision diagram: error against CPU seconds, both on logarithmic axes.
 
 use super::legend::Legend;
-use super::{Curve, Point, cheapest};
+use super::{Cost, Curve, Point, cheapest};
 use crate::axis::LogAxis;
 use crate::style::Style;
 use crate::svg::{Anchor, Colour, Dash, Svg};
@@ -39,6 +39,12 @@ impl Diagram<'_> {
     /// tell stand on grey.
     #[must_use]
     pub fn draw(&self) -> Option<String> {
+        self.draw_over(Cost::CpuSeconds)
+    }
+
+    /// The same over what stands for the cost.
+    #[must_use]
+    pub fn draw_over(&self, cost: Cost) -> Option<String> {
         let points = || self.curves.iter().flat_map(|curve| &curve.points);
         let across = LogAxis::around(points().map(|point| point.cpu_seconds), [LEFT, RIGHT])?;
         let errors = points().map(|point| point.error).chain(self.wanted);
@@ -51,7 +57,7 @@ impl Diagram<'_> {
             let top = up.place(uncertainty);
             svg.rectangle([LEFT, top], [RIGHT - LEFT, BOTTOM - top], Colour::MIST);
         }
-        frame(&mut svg, &across, &up, self.error);
+        frame(&mut svg, [&across, &up], [cost.axis(), self.error]);
         self.draw_wanted(&mut svg, &across, &up);
         for (index, curve) in self.curves.iter().enumerate() {
             self.draw_curve(&mut svg, &across, &up, curve, Style::of(index));
@@ -98,11 +104,11 @@ impl Diagram<'_> {
 }
 
 /// The box, its grid and its names.
-fn frame(svg: &mut Svg, across: &LogAxis, up: &LogAxis, error: &str) {
+fn frame(svg: &mut Svg, [across, up]: [&LogAxis; 2], [cost, error]: [&str; 2]) {
     for tick in across.ticks() {
         let x = across.place(tick.value);
         svg.path(&[[x, TOP], [x, BOTTOM]], Colour::PALE, 1.0, Dash::None);
-        svg.tick([x, BOTTOM + 16.0], SMALL, Anchor::Middle, "CPU time [s]", &tick.label);
+        svg.tick([x, BOTTOM + 16.0], SMALL, Anchor::Middle, cost, &tick.label);
     }
     for tick in up.ticks() {
         let y = up.place(tick.value);
@@ -111,7 +117,7 @@ fn frame(svg: &mut Svg, across: &LogAxis, up: &LogAxis, error: &str) {
     }
     svg.outline(&[[LEFT, TOP], [RIGHT, TOP], [RIGHT, BOTTOM], [LEFT, BOTTOM]], Colour::GREY, 1.0);
     let middle = [0.5 * (LEFT + RIGHT), 0.5 * (TOP + BOTTOM)];
-    svg.text([middle[0], BOTTOM + 34.0], 12.0, Anchor::Middle, Colour::BLACK, "CPU time [s]");
+    svg.text([middle[0], BOTTOM + 34.0], 12.0, Anchor::Middle, Colour::BLACK, cost);
     svg.text_upwards([18.0, middle[1]], 12.0, Colour::BLACK, error);
 }
 

@@ -18,6 +18,7 @@ mod solid;
 mod stability;
 mod static_tank;
 mod study;
+mod sweep;
 mod tank;
 mod warnings;
 mod work;

@@ -7,8 +7,6 @@ use insta::assert_snapshot;
 
 use crate::program::{Outcome, entries, folder_with, partita, tank};
 
-mod corners;
-
 /// A small map of the tank on a coarse mesh: a cell that converges with ease, one that diverges, and what lies between.
 fn map() -> String {
     format!(
@@ -64,7 +62,7 @@ fn a_map_is_a_table_a_picture_and_a_line_for_each_choice() {
     constant: 2 of 4 cells converged, at most 82 iterations a step, 1 iteration_bound, 1 diverged
     IQN-IMVLS: 4 of 4 cells converged, at most 13 iterations a step
     ");
-    assert_eq!(entries(&path.join("out")), ["cells.csv", "cells.jsonl", "map.svg", "map.toml"]);
+    assert_eq!(entries(&path.join("out")), ["cells.csv", "map.svg", "map.toml", "runs"]);
     let table = table(&path, "out");
     let mut lines = table.lines();
     assert_eq!(
@@ -95,35 +93,38 @@ fn any_number_of_jobs_gives_the_same_table() {
 fn finished_cells_are_kept_and_the_same_command_goes_on() {
     let (_folder, path) = folder_with_map(&map());
     assert_eq!(run(&path, &["--out", "out"]).code, 0);
-    let (whole, journal) = (table(&path, "out"), path.join("out/cells.jsonl"));
-    // As a killed program leaves it: some cells, half a line, no table.
-    let text = fs::read_to_string(&journal).expect("a journal");
-    let cut = text.match_indices('\n').nth(3).expect("more than three cells").0 + 20;
-    fs::write(&journal, &text[..cut]).expect("the journal is cut");
+    let (whole, runs) = (table(&path, "out"), path.join("out/runs"));
+    // As a killed program leaves it: some cells, half a result, no table.
+    let mut results = entries(&runs);
+    results.retain(|name| name.len() == "0123456789abcdef.json".len());
+    assert_eq!(results.len(), 8);
+    let read = |name: &str| fs::read_to_string(runs.join(name)).expect("a result");
+    fs::remove_file(runs.join(&results[0])).expect("a result is removed");
+    fs::write(runs.join(&results[1]), &read(&results[1])[..20]).expect("a result is cut");
+    for name in &results[2..] {
+        fs::write(runs.join(name), read(name).replace("\"run\":\"", "\"run\":\"kept ")).expect("a mark");
+    }
     fs::remove_file(path.join("out/cells.csv")).expect("the table is removed");
     let outcome = run(&path, &["--out", "out"]);
     assert_eq!(outcome.code, 0, "{}", outcome.stderr);
     assert_eq!(table(&path, "out"), whole);
-    let kept: Vec<&str> = text.lines().take(4).collect();
-    let now = fs::read_to_string(&journal).expect("a journal");
-    assert_eq!(now.lines().take(4).collect::<Vec<_>>(), kept, "finished cells were run again");
-    assert_eq!(now.lines().count(), 9);
+    assert!(results[2..].iter().all(|name| read(name).contains("kept")), "finished cells were run again");
 }
 
 #[test]
-fn cells_of_another_map_and_foreign_files_are_not_taken_up() {
+fn cells_of_a_changed_map_are_run_and_foreign_files_are_left_alone() {
     let (_folder, path) = folder_with_map(&map());
     assert_eq!(run(&path, &["--out", "out"]).code, 0);
     fs::write(path.join("small.toml"), map().replace("steps = 3", "steps = 2")).expect("a changed map");
     let before = table(&path, "out");
-    let outcome = run(&path, &["--out", "out"]);
-    assert_eq!(outcome.code, 2);
-    assert!(outcome.stderr.contains("before it was changed"), "{}", outcome.stderr);
-    assert_eq!(table(&path, "out"), before);
-    assert_eq!(run(&path, &["--out", "out", "--force"]).code, 0);
+    assert_eq!(run(&path, &["--out", "out"]).code, 0);
     assert_ne!(table(&path, "out"), before);
+    fs::rename(path.join("small.toml"), path.join("other.toml")).expect("another name");
+    let outcome = partita(&path, &["stability", "other.toml", "--out", "out"]);
+    assert_eq!(outcome.code, 2);
+    assert!(outcome.stderr.contains("the results of the map `small`"), "{}", outcome.stderr);
     fs::write(path.join("out/thesis.txt"), "mine").expect("a file");
-    let outcome = run(&path, &["--out", "out", "--force"]);
+    let outcome = partita(&path, &["stability", "other.toml", "--out", "out", "--force"]);
     assert_eq!(outcome.code, 2);
     assert!(outcome.stderr.contains("thesis.txt"), "{}", outcome.stderr);
 }
@@ -194,8 +195,8 @@ fn other_slips_name_place_and_remedy() {
         ("steps = 3", "stepps = 3", "did you mean `steps`?"),
         ("steps = 3", "steps = 0", "steps is not a count of at least 1"),
         ("name = \"dt\"", "name = \"d t\"", "is no name of a parameter"),
-        ("name = \"dt\"", "name = \"density_ratio\"", "both parameters have one name"),
-        ("name = \"IQN-IMVLS\"", "name = \"constant\"", "there are two choices `constant`"),
+        ("name = \"dt\"", "name = \"density_ratio\"", "two parameters have this name"),
+        ("name = \"IQN-IMVLS\"", "name = \"constant\"", "two choices have this name"),
         ("values = [0.01, 10]", "values = []", "a parameter without values"),
         ("set = [\"time.step=$(x)\"]", "set = []", "`dt` sets nothing"),
         ("set = [\"time.step=$(x)\"]", "set = [\"time.step=$(x\"]", "a `$(` is never closed"),

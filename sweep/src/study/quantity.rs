@@ -1,29 +1,35 @@
 //! From values in time to one number, and to an error.
 
-use super::error::MeasureError;
-use super::file::{Measure, Take};
+use thiserror::Error;
 
-/// Values of a column at the ends of the steps.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Series {
-    pub(super) times: Vec<f64>,
-    pub(super) values: Vec<f64>,
+use crate::file::study::{Measure, Take};
+use crate::result::Series;
+
+/// Why a run has no error.
+#[derive(Debug, Error)]
+pub(crate) enum MeasureError {
+    /// What was probed is no number.
+    #[error("what the probe shows is not finite")]
+    NotFinite,
+    /// It shares no time with the reference.
+    #[error("it has no time in common with the reference run")]
+    NoCommonTime,
 }
 
 /// What is measured.
 #[derive(Debug, Clone)]
-pub(super) struct Quantity {
-    pub(super) name: String,
-    pub(super) column: String,
-    pub(super) take: Take,
+pub(crate) struct Quantity {
+    pub(crate) name: String,
+    pub(crate) column: String,
+    pub(crate) take: Take,
     /// First and last time that count \[s\].
-    pub(super) window: [f64; 2],
-    pub(super) measure: Measure,
+    pub(crate) window: [f64; 2],
+    pub(crate) measure: Measure,
 }
 
 /// What errors are measured against.
 #[derive(Debug, Clone)]
-pub(super) enum Truth {
+pub(crate) enum Truth {
     Value(f64),
     Run(Series),
 }
@@ -33,13 +39,13 @@ const SAME_TIME: f64 = 1e-6;
 
 impl Quantity {
     /// Whether a time counts.
-    pub(super) fn counts(&self, time: f64) -> bool {
+    pub(crate) fn counts(&self, time: f64) -> bool {
         let slack = SAME_TIME * time.abs();
         (self.window[0] - slack..=self.window[1] + slack).contains(&time)
     }
 
     /// The number that the values come to; for a history its last one.
-    pub(super) fn of(&self, series: &Series) -> Result<f64, MeasureError> {
+    pub(crate) fn of(&self, series: &Series) -> Result<f64, MeasureError> {
         let inside: Vec<[f64; 2]> = series
             .times
             .iter()
@@ -58,7 +64,7 @@ impl Quantity {
     }
 
     /// Distance of a run from the truth.
-    pub(super) fn error(&self, series: &Series, truth: &Truth) -> Result<f64, MeasureError> {
+    pub(crate) fn error(&self, series: &Series, truth: &Truth) -> Result<f64, MeasureError> {
         let (distance, scale) = match truth {
             Truth::Value(value) => ((self.of(series)? - value).abs(), value.abs()),
             Truth::Run(run) if self.take == Take::History => self.largest_distance(series, run)?,

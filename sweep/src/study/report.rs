@@ -1,18 +1,17 @@
-//! What a study has found: rows, diagram, and the answer in words.
+//! What a study has found: rows, table, diagram.
 
-use std::fmt::Write as _;
-
+use partita::output::table::{Cell, Table, csv_header, csv_row};
 use partita_charts::axis::rounded;
-use partita_charts::work_precision::{Curve, Diagram, FloorKind, Point, Trend, cheapest, most_accurate};
+use partita_charts::work_precision::{Cost, Curve, Diagram, Point};
 
-use super::conduct::{Setting, Study};
-use super::error::MeasureError;
-use super::file::Measure;
-use super::measure::Measured;
-use partita::output::table::{Cell, Table};
+use super::quantity::Truth;
+use super::{Setting, Study, series};
+use crate::file::study::Measure;
+use crate::result::RunResult;
+use crate::sweep::Sweep;
 
 /// Columns of the rows.
-pub(super) const COLUMNS: [&str; 16] = [
+const COLUMNS: [&str; 16] = [
     "study",
     "setting",
     "error",
@@ -48,8 +47,11 @@ pub struct Row {
 pub struct Numbers {
     /// Distance from the truth.
     pub error: f64,
-    /// Processor time of building and stepping the run \[s\], the least of some repeats where it is short.
-    pub cpu_seconds: f64,
+    /// Processor time of building and stepping the run \[s\], the least of some repeats where it is short; only where nothing else
+    /// ran meanwhile.
+    pub cpu_seconds: Option<f64>,
+    /// Unknowns times Newton iterations, both fields.
+    pub work: f64,
     /// The quantity itself.
     pub value: f64,
     /// Unknowns of both fields.
@@ -69,46 +71,36 @@ pub struct Numbers {
 }
 
 impl Row {
-    pub(super) fn measured(
+    /// What a result comes to against the truth.
+    pub(super) fn of(
         study: &Study,
+        name: &str,
         setting: &Setting,
-        value: f64,
-        error: f64,
-        measured: &Measured,
+        result: &RunResult,
+        truth: &Truth,
     ) -> Self {
-        let Measured { cpu_seconds, unknowns, totals, .. } = measured;
-        let numbers = Numbers {
-            error,
-            cpu_seconds: *cpu_seconds,
-            value,
-            unknowns: *unknowns,
-            steps: totals.steps,
-            coupling_iterations: totals.coupling_iterations,
-            newton_fluid: totals.newton_fluid,
-            newton_structure: totals.newton_structure,
-            unconverged_steps: totals.unconverged_steps,
-            retries: totals.retries,
+        let measured = || {
+            if let Some(failure) = &result.failure {
+                return Err(failure.what.clone());
+            }
+            let series = series(result);
+            let value = study.quantity.of(series).map_err(|error| error.to_string())?;
+            let error = study.quantity.error(series, truth).map_err(|error| error.to_string())?;
+            Ok(Numbers::of(result, value, error))
         };
-        Self::new(study, setting, Ok(numbers))
-    }
-
-    pub(super) fn failed(study: &Study, setting: &Setting, error: &MeasureError) -> Self {
-        let cause = error.to_string().lines().next().unwrap_or_default().to_owned();
-        Self::new(study, setting, Err(cause))
-    }
-
-    fn new(study: &Study, setting: &Setting, outcome: Result<Numbers, String>) -> Self {
         let Setting { choice, refinement, .. } = setting;
-        Self { study: study.name.clone(), choice: choice.clone(), refinement: refinement.clone(), outcome }
+        let (choice, refinement) = (choice.clone(), refinement.clone());
+        Self { study: name.to_owned(), choice, refinement, outcome: measured() }
     }
 
     /// The row in a line of words.
     pub(super) fn line(&self) -> String {
         let setting = self.setting();
         match &self.outcome {
-            Ok(Numbers { error, cpu_seconds, .. }) => {
-                format!("{setting}: error {}, {} s", rounded(*error, 2), rounded(*cpu_seconds, 2))
+            Ok(Numbers { error, cpu_seconds: Some(seconds), .. }) => {
+                format!("{setting}: error {}, {} s", rounded(*error, 2), rounded(*seconds, 2))
             }
+            Ok(Numbers { error, .. }) => format!("{setting}: error {}", rounded(*error, 2)),
             Err(cause) => format!("{setting}: {cause}"),
         }
     }
@@ -125,7 +117,7 @@ impl Row {
             self.study.as_str().into(),
             self.setting().into(),
             number(&|numbers| numbers.error),
-            number(&|numbers| numbers.cpu_seconds),
+            Cell::from(self.outcome.as_ref().ok().and_then(|numbers| numbers.cpu_seconds)),
             self.choice.as_str().into(),
             self.refinement.as_str().into(),
             number(&|numbers| numbers.value),
@@ -142,13 +134,33 @@ impl Row {
     }
 }
 
+impl Numbers {
+    fn of(result: &RunResult, value: f64, error: f64) -> Self {
+        let RunResult { counts, unknowns, cpu_seconds, .. } = result;
+        let work = unknowns[0] * counts.newton_fluid + unknowns[1] * counts.newton_structure;
+        Self {
+            error,
+            cpu_seconds: *cpu_seconds,
+            work: work as f64,
+            value,
+            unknowns: unknowns.iter().sum(),
+            steps: counts.steps,
+            coupling_iterations: counts.coupling_iterations,
+            newton_fluid: counts.newton_fluid,
+            newton_structure: counts.newton_structure,
+            unconverged_steps: counts.unconverged_steps,
+            retries: counts.retries,
+        }
+    }
+}
+
 /// What a study has found so far.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     title: String,
     quantity: String,
-    wanted: Option<f64>,
-    /// Whether settings are missing because the study was stopped.
+    pub(super) wanted: Option<f64>,
+    /// Whether settings are missing.
     pub interrupted: bool,
     /// How well the reference is known, in the unit of the error.
     pub uncertainty: f64,
@@ -157,19 +169,41 @@ pub struct Report {
 }
 
 impl Report {
-    pub(super) fn new(study: &Study) -> Self {
+    /// The report of the results that are there, against the truth and how well that is known.
+    pub(crate) fn new(
+        sweep: &Sweep,
+        study: &Study,
+        truth: Option<&(Truth, f64)>,
+        result: &dyn Fn(usize) -> Option<RunResult>,
+    ) -> Self {
         let kind = match study.quantity.measure {
             Measure::Relative => "relative error",
             Measure::Absolute => "error",
         };
+        let row =
+            |setting: &Setting| Some(Row::of(study, &sweep.name, setting, &result(setting.run)?, &truth?.0));
+        let rows: Vec<Row> = study.settings.iter().filter_map(row).collect();
         Self {
-            title: study.title.clone(),
+            title: sweep.title.clone(),
             quantity: format!("{kind} of the {}", study.quantity.name),
             wanted: study.wanted,
-            interrupted: false,
-            uncertainty: 0.0,
-            rows: Vec::new(),
+            interrupted: rows.len() < study.settings.len(),
+            uncertainty: truth.map_or(0.0, |(_, uncertainty)| *uncertainty),
+            rows,
         }
+    }
+
+    /// What the diagram's axis and the answer count: seconds, or work where a setting has none.
+    pub(super) fn cost(&self) -> Cost {
+        let timed = |row: &Row| row.outcome.as_ref().map_or(true, |numbers| numbers.cpu_seconds.is_some());
+        if self.rows.iter().all(timed) { Cost::CpuSeconds } else { Cost::Work }
+    }
+
+    /// `study.csv`.
+    #[must_use]
+    pub fn to_csv(&self) -> String {
+        let rows = self.rows.iter().map(|row| csv_row(&row.cells(self.uncertainty)));
+        std::iter::once(csv_header(&COLUMNS)).chain(rows).collect()
     }
 
     /// The settings that were measured, as curves.
@@ -177,8 +211,12 @@ impl Report {
     pub fn curves(&self) -> Vec<Curve> {
         let mut curves: Vec<Curve> = Vec::new();
         for row in &self.rows {
-            let Ok(Numbers { error, cpu_seconds, .. }) = row.outcome else { continue };
-            let point = Point { name: row.refinement.clone(), error, cpu_seconds };
+            let Ok(Numbers { error, cpu_seconds, work, .. }) = row.outcome else { continue };
+            let cost = match self.cost() {
+                Cost::CpuSeconds => cpu_seconds.unwrap_or(f64::NAN),
+                Cost::Work => work,
+            };
+            let point = Point { name: row.refinement.clone(), error, cpu_seconds: cost };
             match curves.last_mut().filter(|curve| curve.name == row.choice) {
                 Some(curve) => curve.points.push(point),
                 None => curves.push(Curve { name: row.choice.clone(), points: vec![point] }),
@@ -197,93 +235,29 @@ impl Report {
             uncertainty: self.uncertainty,
             wanted: self.wanted,
         };
-        diagram.draw()
+        diagram.draw_over(self.cost())
     }
 
     /// The rows as a table.
     #[must_use]
     pub fn table(&self) -> Table {
-        let mut table = Table::new(["choice", "refinement", "error", "CPU [s]"]);
+        let cost = self.cost();
+        let heading = match cost {
+            Cost::CpuSeconds => "CPU [s]",
+            Cost::Work => "unknowns solved for",
+        };
+        let mut table = Table::new(["choice", "refinement", "error", heading]);
         for row in &self.rows {
             let outcome: [Cell; 2] = match &row.outcome {
-                Ok(Numbers { error, cpu_seconds, .. }) => [(*error).into(), (*cpu_seconds).into()],
+                Ok(Numbers { error, cpu_seconds, work, .. }) => match cost {
+                    Cost::CpuSeconds => [(*error).into(), (*cpu_seconds).into()],
+                    Cost::Work => [(*error).into(), (*work).into()],
+                },
                 Err(_) => ["failed".into(), Cell::Empty],
             };
-            let [error, cpu] = outcome;
-            table.push([row.choice.as_str().into(), row.refinement.as_str().into(), error, cpu]);
+            let [error, cost] = outcome;
+            table.push([row.choice.as_str().into(), row.refinement.as_str().into(), error, cost]);
         }
         table
     }
-
-    /// The answer: what a digit costs on each curve, and the cheapest setting that reaches the wanted error.
-    #[must_use]
-    pub fn answer(&self) -> String {
-        let curves = self.curves();
-        let mut text = String::new();
-        for curve in &curves {
-            line(&mut text, &format!("{}: {}", curve.name, self.trend(curve)));
-        }
-        if self.uncertainty > 0.0 {
-            line(&mut text, &format!("the reference is known to {}", rounded(self.uncertainty, 2)));
-        }
-        if let Some(wanted) = self.wanted {
-            line(&mut text, &self.choice(&curves, wanted));
-        }
-        text
-    }
-
-    /// What a digit costs on a curve, and where its error stops.
-    fn trend(&self, curve: &Curve) -> String {
-        let Trend { fit, floor } = curve.trend(self.uncertainty);
-        let law = fit.map(|fit| {
-            format!(
-                "a tenth of the error costs {} times the time (from {} settings over {} digits)",
-                rounded(fit.digit_factor(), 3),
-                fit.points,
-                rounded(fit.digits(), 2)
-            )
-        });
-        let floor = floor.map(|floor| {
-            let (from, error) = (&curve.points[floor.start].name, rounded(floor.error, 2));
-            match (floor.kind, floor.start) {
-                (FloorKind::OtherError, 0) => format!("refining does not change the error, {error}"),
-                (FloorKind::OtherError, _) => format!("from {from} on the error no longer falls: {error}"),
-                (FloorKind::Reference, 0) => format!("the reference is no better than the errors, {error}"),
-                (FloorKind::Reference, _) => {
-                    format!("from {from} on the reference is no better than the error: {error}")
-                }
-            }
-        });
-        let words: Vec<String> = law.into_iter().chain(floor).collect();
-        if words.is_empty() {
-            "too few settings tell what a digit costs".to_owned()
-        } else {
-            words.join("; ")
-        }
-    }
-
-    fn choice(&self, curves: &[Curve], wanted: f64) -> String {
-        let named = |curve: &Curve, point: &Point| {
-            let [error, seconds] = [point.error, point.cpu_seconds].map(|number| rounded(number, 2));
-            format!("{}, {}: error {error} in {seconds} s", curve.name, point.name)
-        };
-        let so_far = if self.interrupted { " so far" } else { "" };
-        let wanted_text = rounded(wanted, 2);
-        match (cheapest(curves, wanted), most_accurate(curves)) {
-            (Some((curve, point)), _) => {
-                format!("cheapest setting{so_far} that reaches {wanted_text}: {}", named(curve, point))
-            }
-            (None, Some((curve, point))) => {
-                format!(
-                    "no setting{so_far} reaches {wanted_text}; the most accurate is {}",
-                    named(curve, point)
-                )
-            }
-            (None, None) => "no setting could be run".to_owned(),
-        }
-    }
-}
-
-fn line(text: &mut String, words: &str) {
-    writeln!(text, "{words}").expect("a String takes any text");
 }

@@ -2,17 +2,16 @@
 
 use partita_charts::map::{self, MapAxis, MapCell, MapPanel};
 
-use super::read::{Axis, Map};
-use super::row::{Outcome, Row};
+use super::{Axis, Cell, Map, Outcome, Row};
 
-/// The picture of a map and of what its cells came to.
-pub(super) fn draw(map: &Map, rows: &[Row]) -> String {
+/// The picture of a map all of whose cells have a row.
+pub(crate) fn draw(title: &str, map: &Map, rows: &[(Cell, Row)]) -> String {
     let panel = |(choice, name): (usize, &String)| {
-        let of_choice = map.cells.iter().zip(rows).filter(|(cell, _)| cell.choice == choice);
+        let of_choice = rows.iter().filter(|(cell, _)| cell.choice == choice);
         MapPanel { name: name.clone(), cells: of_choice.map(|(_, row)| cell(row)).collect() }
     };
     map::Map {
-        title: map.title.clone(),
+        title: title.to_owned(),
         axes: map.axes.each_ref().map(axis),
         panels: map.choices.iter().enumerate().map(panel).collect(),
     }

@@ -2,21 +2,21 @@
 
 use insta::assert_snapshot;
 use miette::{GraphicalReportHandler, GraphicalTheme};
-use partita_sweep::study::Study;
+use partita_scene::file_kind::FileKind;
+use partita_sweep::Sweep;
 
-use super::{SOUND, folder_with};
-use crate::program::{entries, partita};
+use crate::support::{Case, SOUND};
 
 /// The message for a study, its file without the folder.
 fn message(study: &str) -> String {
-    let (guard, file) = folder_with(study);
-    let error = Study::load(&file).expect_err("the study is broken");
+    let case = Case::new(study);
+    let error = Sweep::load_as(FileKind::Study, case.file()).expect_err("the study is broken");
     let mut message = String::new();
     GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor())
         .with_width(100)
         .render_report(&mut message, &error)
         .expect("a string takes everything");
-    message.replace(&format!("{}/", guard.path().display()), "")
+    message.replace(&format!("{}/", case.path().display()), "")
 }
 
 /// The message for the sound study with `old` replaced by `new`.
@@ -306,16 +306,4 @@ fn a_choice_without_refinements_is_refused() {
      help: give it `refinements`, or put some above all choices: a list of { name = "...", set =
            [..] }
     "#);
-}
-
-#[test]
-fn the_program_refuses_a_broken_study_before_it_writes() {
-    let (guard, _) = folder_with(&SOUND.replace("degree=[3, 2]", "degree=[30, 2]"));
-    let outcome = partita(guard.path(), &["study", "bending.toml"]);
-    assert_eq!((outcome.code, outcome.stdout.as_str()), (2, ""));
-    assert!(outcome.stderr.contains("degree=[30, 2]"), "{}", outcome.stderr);
-    assert_eq!(entries(guard.path()), ["bending.toml", "cantilever.toml"]);
-    let absent = partita(guard.path(), &["study", "absent.toml"]);
-    assert_eq!(absent.code, 2);
-    assert!(absent.stderr.contains("name a study file"), "{}", absent.stderr);
 }

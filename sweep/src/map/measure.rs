@@ -1,14 +1,14 @@
 //! What is measured in a cell beside its iterations.
-use partita_numerics::Field;
 
 use partita_fluid::FluidSolver;
 use partita_mesh::Mesh;
+use partita_numerics::Field;
 use partita_structure::StructureSolver;
 
 use partita::build::FieldMarch;
 
 /// Kinetic energy of the fluid, kinetic and strain energy of the structure \[J, in 2D J/m\].
-pub(super) fn energy(run: &FieldMarch) -> f64 {
+pub(crate) fn energy(run: &FieldMarch) -> f64 {
     let fluid = run.first().field().map_or(0.0, FluidSolver::kinetic_energy);
     let structure =
         run.second().field().map_or(0.0, |structure| structure.kinetic_energy() + structure.strain_energy());
@@ -16,7 +16,7 @@ pub(super) fn energy(run: &FieldMarch) -> f64 {
 }
 
 /// Largest displacement of a control point or node of the structure \[m\].
-pub(super) fn largest_displacement(structure: &StructureSolver<2>) -> f64 {
+pub(crate) fn largest_displacement(structure: &StructureSolver<2>) -> f64 {
     structure.values().chunks_exact(2).map(|d| d[0].hypot(d[1])).fold(0.0, f64::max)
 }
 
@@ -24,7 +24,7 @@ pub(super) fn largest_displacement(structure: &StructureSolver<2>) -> f64 {
 ///
 /// A body that starts to fall has an energy like t^2 and grows by 4; what a scheme adds by itself grows by a factor every
 /// few steps, without end.
-pub(super) fn growth(energies: &[f64]) -> Option<f64> {
+pub(crate) fn growth(energies: &[f64]) -> Option<f64> {
     let (first, last) = energies.split_at(energies.len() / 2);
     let most = |energies: &[f64]| energies.iter().copied().fold(0.0, f64::max);
     match (most(first), most(last)) {
@@ -41,7 +41,7 @@ pub(super) fn growth(energies: &[f64]) -> Option<f64> {
 /// ```
 ///
 /// Zero for a pressure that is linear on a regular mesh, small for a smooth one, and 2 for a checkerboard.
-pub(super) fn pressure_oscillation(fluid: &FluidSolver<2>) -> f64 {
+pub(crate) fn pressure_oscillation(fluid: &FluidSolver<2>) -> f64 {
     let pressures: Vec<f64> = fluid.values().chunks_exact(3).map(|node| node[2]).collect();
     oscillation(fluid.mesh(), &pressures)
 }

@@ -1,24 +1,50 @@
 //! The hardest corners of the shipped maps, few steps each.
 
+use std::fs;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
-use partita_sweep::stability::{self, Ending, Map, Options, Outcome, Row};
+use partita_sweep::map::{Outcome, Row};
+use partita_sweep::{Findings, Sweep};
+use toml::{Table, Value};
+
+use crate::support::execute;
 
 /// What one cell of a shipped map comes to, in at most `steps` steps where the map does not set them.
-fn corner(map: &str, choice: &str, values: [&str; 2], steps: Option<usize>) -> Row {
+fn corner(map: &str, choice: &str, values: [&str; 2], steps: Option<i64>) -> Row {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../maps").join(map).with_extension("toml");
-    let mut map = Map::load(&path).expect("a shipped map is sound");
-    let axis = |axis: usize| map.axes[axis].values.iter().position(|value| value == values[axis]);
-    let place = [axis(0), axis(1)].map(|index| index.expect("a value of the map"));
-    let choice = map.choices.iter().position(|name| name == choice).expect("a choice of the map");
-    map.cells.retain(|cell| cell.choice == choice && cell.values == place);
-    map.cells[0].overrides.extend(steps.map(|steps| format!("time.steps={steps}")));
+    let text = fs::read_to_string(&path).expect("a shipped map");
+    let mut table: Table = text.parse().expect("a shipped map is TOML");
+    let scene = path.with_file_name(table["scene"].as_str().expect("a scene"));
+    table.insert("scene".to_owned(), Value::String(scene.display().to_string()));
+    if let Some(steps) = steps {
+        table.insert("steps".to_owned(), Value::Integer(steps));
+    }
+    keep(&mut table, "choice", |entry| entry["name"].as_str() == Some(choice));
+    for (axis, value) in values.into_iter().enumerate() {
+        let parameter = &mut table["parameter"].as_array_mut().expect("two parameters")[axis];
+        let parameter = parameter.as_table_mut().expect("a parameter");
+        let number: Option<f64> = value.parse().ok();
+        keep(parameter, "values", |entry| match entry {
+            Value::String(word) => word == value,
+            Value::Integer(integer) => number == Some(*integer as f64),
+            other => other.as_float() == number,
+        });
+    }
     let folder = tempfile::tempdir().expect("a folder");
-    let options = Options { jobs: 1, fresh: true, stop: &AtomicBool::new(false) };
-    let ending = stability::run(&map, folder.path(), options, &mut ()).expect("the folder takes a map");
-    let Ending::Finished(mut rows) = ending else { panic!("nobody interrupts it") };
-    rows.remove(0)
+    let file = folder.path().join("corner.toml");
+    fs::write(&file, table.to_string()).expect("a map of one cell");
+    let sweep = Sweep::load(&file).expect("a cell of a shipped map is sound");
+    execute(&sweep, &folder.path().join("out"), 1).expect("the folder takes a map");
+    let collected = sweep.collect(&folder.path().join("out")).expect("a result");
+    let Findings::Map(mut rows, _) = collected.findings else { panic!("it is a map") };
+    rows.remove(0).1
+}
+
+/// Keeps the one entry of a list that fits.
+fn keep(table: &mut Table, key: &str, fits: impl Fn(&Value) -> bool) {
+    let list = table[key].as_array_mut().expect("a list");
+    list.retain(fits);
+    assert_eq!(list.len(), 1, "{key}");
 }
 
 fn most(row: &Row) -> usize {

@@ -1,70 +1,61 @@
-//! From the text of a study to settings that can be run, or to the place that is wrong.
+//! What can be wrong with a study, and where.
 
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use miette::Diagnostic;
+use partita::{build, probe};
+use partita_scene::spelling::nearest;
+use partita_scene::{Resolved, SceneError};
 use toml::Spanned;
 
-use super::conduct::{Setting, Standard, Study};
-use super::error::{Source, StudyError, first_problem};
-use super::file::{self, Choice, File, Measure, Refinement, Take};
-use super::quantity::Quantity;
-use partita::{build, probe};
-use partita_scene::Resolved;
-use partita_scene::file_kind::FileKind;
-use partita_scene::spelling::nearest;
-
-impl Study {
-    /// Reads a study file and builds every setting in it once.
-    ///
-    /// # Errors
-    ///
-    /// [`StudyError`] with the first place that is wrong and how to mend it.
-    pub fn load(path: &Path) -> Result<Self, StudyError> {
-        if let Some((what, hint)) = FileKind::Study.misplaced(path) {
-            return Err(StudyError::plain(what, hint));
-        }
-        let text = std::fs::read_to_string(path).map_err(|error| {
-            StudyError::plain(
-                format!("{} cannot be read: {error}", path.display()),
-                "name a study file: TOML with a scene, choices and a reference",
-            )
-        })?;
-        let source = Source { name: path.display().to_string(), text };
-        let file = file::parse(&source)?;
-        let scene = path.parent().unwrap_or(Path::new("")).join(file.scene.get_ref());
-        let reader = Reader { source: &source, file: &file, scene };
-        reader.numbers()?;
-        let settings = reader.settings()?;
-        let reference = reader.reference()?;
-        reader.same_end(&settings, &reference)?;
-        let name =
-            path.file_stem().map_or_else(|| "study".to_owned(), |name| name.to_string_lossy().into_owned());
-        Ok(Self {
-            name,
-            title: file.title.clone(),
-            quantity: reader.quantity(),
-            wanted: file.wanted.as_ref().map(|wanted| *wanted.get_ref()),
-            settings,
-            reference,
-            text: source.text.clone(),
-        })
-    }
-}
+use super::super::{Source, first_problem};
+use super::{Choice, File, Measure, QuantityTable, Refinement, Take};
+use crate::fingerprint::Fingerprint;
+use crate::study::Quantity;
 
 /// An override and where the study has it.
 type Override<'a> = &'a Spanned<String>;
 
-struct Reader<'a> {
+/// A run of a study that can be built.
+pub(super) struct Checked {
+    pub(super) overrides: Vec<String>,
+    pub(super) fingerprint: String,
+    steps: usize,
+    step: f64,
+    /// Its name in the study file.
+    place: Range<usize>,
+}
+
+impl Checked {
+    /// The end of the run \[s\].
+    fn end(&self) -> f64 {
+        self.steps as f64 * self.step
+    }
+}
+
+/// What errors are measured against.
+pub(super) enum Standard {
+    Value { value: f64, uncertainty: f64 },
+    Run { run: Box<Checked>, check: Option<Box<Checked>> },
+}
+
+/// Choice, refinement, and the run that they make.
+pub(super) type Point = (String, String, Checked);
+
+pub(super) struct Reader<'a> {
     source: &'a Source,
     file: &'a File,
     scene: PathBuf,
 }
 
 impl<'a> Reader<'a> {
+    pub(super) fn new(source: &'a Source, file: &'a File) -> Self {
+        Self { source, file, scene: source.beside(file.scene.get_ref()) }
+    }
+
     /// What can be said without a scene.
-    fn numbers(&self) -> Result<(), StudyError> {
+    pub(super) fn numbers(&self) -> Result<(), SceneError> {
         let positive = |number: &Option<Spanned<f64>>, name: &str, hint: &str| match number {
             Some(value) if !(*value.get_ref() > 0.0 && value.get_ref().is_finite()) => {
                 Err(self.source.error(
@@ -91,8 +82,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn quantity(&self) -> Quantity {
-        let file::Quantity { name, column, take, from, to, error } = &self.file.quantity;
+    pub(super) fn quantity(&self) -> Quantity {
+        let QuantityTable { name, column, take, from, to, error } = &self.file.quantity;
         let time = |time: &Option<Spanned<f64>>, or| time.as_ref().map_or(or, |time| *time.get_ref());
         Quantity {
             name: name.clone(),
@@ -104,18 +95,18 @@ impl<'a> Reader<'a> {
     }
 
     /// Every refinement of every choice.
-    fn settings(&self) -> Result<Vec<Setting>, StudyError> {
+    pub(super) fn points(&self) -> Result<Vec<Point>, SceneError> {
         let choices = self.file.choice.get_ref();
         if choices.is_empty() {
             let hint = "add a curve: [[choice]] with a `name` and `refinements`";
             return Err(self.source.error("the study has no choice", self.file.choice.span(), "empty", hint));
         }
         let names = choices.iter().map(|choice| &choice.get_ref().name);
-        self.differ(names, "two choices have this name")?;
-        let mut settings = Vec::new();
+        self.source.differ(names, "two choices have this name")?;
+        let mut points = Vec::new();
         for choice in choices {
             let refinements = self.refinements(choice)?;
-            self.differ(
+            self.source.differ(
                 refinements.iter().map(|refinement| &refinement.get_ref().name),
                 "two refinements of a choice have this name",
             )?;
@@ -123,18 +114,14 @@ impl<'a> Reader<'a> {
                 let Refinement { name, set } = refinement.get_ref();
                 let overrides: Vec<Override> =
                     self.file.set.iter().chain(&choice.get_ref().set).chain(set).collect();
-                settings.push(Setting {
-                    choice: choice.get_ref().name.get_ref().clone(),
-                    refinement: name.get_ref().clone(),
-                    resolved: self.resolve(&overrides, name.span())?,
-                    place: name.span(),
-                });
+                let checked = self.check(&overrides, name.span())?;
+                points.push((choice.get_ref().name.get_ref().clone(), name.get_ref().clone(), checked));
             }
         }
-        Ok(settings)
+        Ok(points)
     }
 
-    fn refinements(&self, choice: &'a Spanned<Choice>) -> Result<&'a [Spanned<Refinement>], StudyError> {
+    fn refinements(&self, choice: &'a Spanned<Choice>) -> Result<&'a [Spanned<Refinement>], SceneError> {
         let Choice { name, refinements, .. } = choice.get_ref();
         let Some(refinements) = refinements.as_ref().or(self.file.refinements.as_ref()) else {
             return Err(self.source.error(
@@ -151,27 +138,7 @@ impl<'a> Reader<'a> {
         Ok(refinements.get_ref())
     }
 
-    fn differ<'n>(
-        &self,
-        names: impl Iterator<Item = &'n Spanned<String>>,
-        what: &str,
-    ) -> Result<(), StudyError> {
-        let mut seen: Vec<&str> = Vec::new();
-        for name in names {
-            if seen.contains(&name.get_ref().as_str()) {
-                return Err(self.source.error(
-                    what,
-                    name.span(),
-                    "the second time",
-                    "give each its own name",
-                ));
-            }
-            seen.push(name.get_ref());
-        }
-        Ok(())
-    }
-
-    fn reference(&self) -> Result<Standard, StudyError> {
+    pub(super) fn standard(&self) -> Result<Standard, SceneError> {
         let reference = self.file.reference.get_ref();
         let place = self.file.reference.span();
         let wrong = |place: Range<usize>, what: &str, label: &str, hint: &str| {
@@ -201,7 +168,7 @@ impl<'a> Reader<'a> {
                 }
                 let run = |set: &Spanned<Vec<Spanned<String>>>| {
                     let overrides: Vec<Override> = self.file.set.iter().chain(set.get_ref()).collect();
-                    self.resolve(&overrides, set.span())
+                    self.check(&overrides, set.span())
                 };
                 Ok(Standard::Run {
                     run: Box::new(run(set)?),
@@ -212,8 +179,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn value(&self, value: &Spanned<f64>) -> Result<Standard, StudyError> {
-        let file::Quantity { take, error, .. } = &self.file.quantity;
+    fn value(&self, value: &Spanned<f64>) -> Result<Standard, SceneError> {
+        let QuantityTable { take, error, .. } = &self.file.quantity;
         let reference = self.file.reference.get_ref();
         if let Some(check) = &reference.check {
             return Err(self.source.error(
@@ -246,7 +213,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The scene under these overrides, built once to see that it can be; `place` is that of the setting.
-    fn resolve(&self, overrides: &[Override], place: Range<usize>) -> Result<Resolved, StudyError> {
+    fn check(&self, overrides: &[Override], place: Range<usize>) -> Result<Checked, SceneError> {
         let load = |count: usize| {
             let words: Vec<String> = overrides[..count].iter().map(|word| word.get_ref().clone()).collect();
             partita_scene::load(&self.scene, &words)
@@ -265,12 +232,19 @@ impl<'a> Reader<'a> {
         self.window(&resolved, place.clone())?;
         build::march(&resolved).map_err(|error| {
             let hint = error.help().map(|help| help.to_string()).unwrap_or_default();
-            self.source.error(error.to_string(), place, "this setting cannot be built", hint)
+            self.source.error(error.to_string(), place.clone(), "this setting cannot be built", hint)
         })?;
-        Ok(resolved)
+        let time = &resolved.scene.time;
+        Ok(Checked {
+            overrides: overrides.iter().map(|word| word.get_ref().clone()).collect(),
+            fingerprint: Fingerprint::of(&resolved).and(self.file.quantity.column.get_ref()).text(),
+            steps: time.steps.get(),
+            step: time.step.get(),
+            place,
+        })
     }
 
-    fn column(&self, resolved: &Resolved) -> Result<(), StudyError> {
+    fn column(&self, resolved: &Resolved) -> Result<(), SceneError> {
         let column = &self.file.quantity.column;
         let known = probe::columns(&resolved.scene.output.probes);
         if known.iter().any(|name| name == column.get_ref()) {
@@ -289,7 +263,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Some step of a run ends in the window.
-    fn window(&self, resolved: &Resolved, place: Range<usize>) -> Result<(), StudyError> {
+    fn window(&self, resolved: &Resolved, place: Range<usize>) -> Result<(), SceneError> {
         let (quantity, time) = (self.quantity(), &resolved.scene.time);
         if (1..=time.steps.get()).any(|step| quantity.counts(step as f64 * time.step.get())) {
             return Ok(());
@@ -298,35 +272,29 @@ impl<'a> Reader<'a> {
         Err(self.source.error(
             format!("no step ends between t = {from} s and t = {to} s"),
             place,
-            format!("ends at t = {} s", end(resolved)),
+            format!("ends at t = {} s", time.steps.get() as f64 * time.step.get()),
             "change the window `from`, `to` under [quantity], or time.steps",
         ))
     }
 
     /// All runs end at the same time, where the quantity depends on it.
-    fn same_end(&self, settings: &[Setting], reference: &Standard) -> Result<(), StudyError> {
+    pub(super) fn same_end(&self, points: &[Point], standard: &Standard) -> Result<(), SceneError> {
         if self.file.quantity.to.is_some() {
             return Ok(());
         }
-        let expected = match reference {
-            Standard::Run { run, .. } => end(run),
-            Standard::Value { .. } => settings.first().map_or(0.0, |first| end(&first.resolved)),
+        let expected = match standard {
+            Standard::Run { run, .. } => run.end(),
+            Standard::Value { .. } => points.first().map_or(0.0, |(_, _, first)| first.end()),
         };
-        let other =
-            settings.iter().find(|setting| (end(&setting.resolved) - expected).abs() > 1e-6 * expected);
+        let other = points.iter().find(|(_, _, run)| (run.end() - expected).abs() > 1e-6 * expected);
         match other {
             None => Ok(()),
-            Some(setting) => Err(self.source.error(
-                format!("the runs end at different times: {expected} s and {} s", end(&setting.resolved)),
-                setting.place.clone(),
-                format!("{} steps of {} s", setting.resolved.scene.time.steps, setting.resolved.scene.time.step),
+            Some((_, _, run)) => Err(self.source.error(
+                format!("the runs end at different times: {expected} s and {} s", run.end()),
+                run.place.clone(),
+                format!("{} steps of {} s", run.steps, run.step),
                 "set time.steps together with time.step, or say with `to` under [quantity] up to when values count",
             )),
         }
     }
-}
-
-/// The end of a run \[s\].
-fn end(resolved: &Resolved) -> f64 {
-    resolved.scene.time.steps.get() as f64 * resolved.scene.time.step.get()
 }

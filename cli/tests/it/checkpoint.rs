@@ -144,7 +144,7 @@ fn every_flipped_bit_is_found() {
 #[test]
 fn another_version_and_another_file_are_named() {
     let newer = load_changed(|bytes| bytes[8] += 1).expect_err("another version");
-    assert!(matches!(newer, CheckpointError::WrongVersion { found: 3, .. }), "{newer}");
+    assert!(matches!(newer, CheckpointError::WrongVersion { found: 4, .. }), "{newer}");
     let other =
         load_changed(|bytes| bytes[..8].copy_from_slice(b"\x89PNG\r\n\x1a\n")).expect_err("another file");
     assert!(matches!(other, CheckpointError::WrongMagic { .. }), "{other}");

@@ -487,6 +487,7 @@ fn a_run_is_removed_unless_something_else_lies_beside_it() {
     let mut writer = create(dir.path());
     write_steps(&mut writer, 1..=2, 1.0);
     writer.finish(Ending::Completed).expect("written");
+    drop(writer);
     let names = || -> Vec<_> {
         let mut names: Vec<_> = fs::read_dir(dir.path())
             .expect("a folder")

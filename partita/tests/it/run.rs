@@ -130,7 +130,7 @@ fn one_field_alone_and_one_way_are_named() {
 
 #[test]
 fn errors_name_the_place_and_a_remedy() {
-    let text = |error: RunError| error.to_string();
+    let text = |error: RunError| partita_testing::with_hint(&error);
     let bottom = || tank::structure(tank::rubber()).expect("a bottom");
     let error = text(Run::couple(cavity(BoundaryCondition::NoSlip), bottom()).err().expect("no interface"));
     assert!(

@@ -1,7 +1,7 @@
 //! The provided verbs, on a field of one unknown: y' = f - y^3 by implicit Euler.
 
 use super::*;
-use crate::newton::{ResidualNorm, ReusableFactor};
+use crate::newton::ResidualNorm;
 
 #[derive(Debug, PartialEq)]
 enum CubicError {
@@ -43,7 +43,7 @@ impl Cubic {
             log: FactorLog::default(),
             parts: [Part { name: "y", dofs: vec![0] }],
             pattern,
-            settings: newton::Settings { reuse_factor: Some(0.5), ..newton::Settings::default() },
+            settings: newton::Settings::default(),
         }
     }
 }
@@ -64,10 +64,6 @@ impl Problem for Cubic {
         self.log.factored(self.coefficients());
         self.trial[0] -= self.residual / self.tangent[0];
         Ok(())
-    }
-
-    fn reusable_factor(&self) -> ReusableFactor {
-        self.log.worth(&self.coefficients(), false)
     }
 }
 

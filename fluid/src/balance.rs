@@ -74,7 +74,7 @@ impl<const D: usize> FluidSolver<D> {
     ///
     /// # Errors
     ///
-    /// [`FluidError::NotFinite`] and [`FluidError::NetFlux`], as [`begin_step`](Self::begin_step) would in a run that
+    /// [`FluidError::NotFinite`] and [`FluidError::NetFlux`], as [`begin_step`](partita_numerics::Field::begin_step) would in a run that
     /// gets there.
     pub fn check_prescribed(&self, time: f64, dt: f64) -> Result<(), FluidError> {
         let mut boundaries = Boundaries::new(&self.mesh, &self.model, &self.settings)?;

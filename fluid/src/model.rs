@@ -86,7 +86,7 @@ pub enum BoundaryCondition<const D: usize> {
         backflow: bool,
     },
     /// A boundary whose displacement another field gives, see
-    /// [`FluidSolver::impose`](crate::FluidSolver::impose); u = w.
+    /// [`FluidSolver::impose`](partita_numerics::Field::impose); u = w.
     Interface,
     /// A wall that stands still whose forces another field is given, so that nothing comes back from there; u = 0.
     RigidInterface,

@@ -75,7 +75,7 @@ impl<const D: usize> FluidSolver<D> {
         Some(sum)
     }
 
-    /// What the step in progress, or after [`commit`](Self::commit) the accepted one, loses of the balance of volume
+    /// What the step in progress, or after [`commit`](partita_numerics::Field::commit) the accepted one, loses of the balance of volume
     /// `[m^2/s in 2D, m^3/s in 3D]`:
     ///
     /// ```text
@@ -102,14 +102,14 @@ impl<const D: usize> FluidSolver<D> {
         rate - boundary.iter().map(|facet| self.flux(facet, velocity, D)).sum::<f64>() - corrected
     }
 
-    /// Work that the fluid does on its interface in the step in progress, or after [`commit`](Self::commit) did in the
+    /// Work that the fluid does on its interface in the step in progress, or after [`commit`](partita_numerics::Field::commit) did in the
     /// accepted one `[J/m in 2D, J in 3D]`:
     ///
     /// ```text
     /// sum over the interface nodes of f_{n+1} . (d_{n+1} - d_n)
     /// ```
     ///
-    /// with the forces f of [`output`](Self::output). What the structure receives differs by the load
+    /// with the forces f of [`output`](partita_numerics::Field::output). What the structure receives differs by the load
     /// that its time scheme takes within the step.
     #[must_use]
     pub fn interface_work(&self) -> f64 {

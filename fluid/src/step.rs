@@ -40,7 +40,7 @@ impl<const D: usize> FluidSolver<D> {
     ///
     /// # Errors
     ///
-    /// As [`begin_step`](Self::begin_step).
+    /// As [`begin_step`](partita_numerics::Field::begin_step).
     ///
     /// # Panics
     ///

@@ -11,7 +11,7 @@
 //! | [`conformance`] | a check for everybody who writes a material |
 //! | [`kernel`] | the element: internal force, tangent, mass, energies |
 //! | [`space`], [`patch`], [`elements`] | geometry and displacement space; shape functions tabulated once |
-//! | [`boundary`], `wetted` | names of its parts; their elements and ends |
+//! | `boundary`, `wetted` | names of its parts; their elements and ends |
 //! | [`interface`] | interpolation weights of points outside |
 //! | [`support`], [`rigid`] | what is held; pieces that still move without deforming |
 //! | `assembly`, `factor` | global forces and tangent; its symmetric factor |

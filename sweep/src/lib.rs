@@ -1,9 +1,9 @@
 //! Many runs of one scene, in one way.
 //!
-//! A [`Sweep`] is a list of runs. Its file is that of a [study](study), which measures error against cost, or of a [map](map),
+//! A [`Sweep`] is a list of runs. Its file is that of a [study], which measures error against cost, or of a [map],
 //! which shows where a scene converges; what a run measures and what is made of the results is all that differs. An [`Executor`]
 //! makes the runs that have no result yet: [`Threads`] of this process, or job arrays of [`Slurm`]. Their results stand in the
-//! [folder](folder), one file for each run, and [`Sweep::collect`] makes table and picture of those that are there. Any number of
+//! [folder], one file for each run, and [`Sweep::collect`] makes table and picture of those that are there. Any number of
 //! processes, on any number of machines that share the folder, may do all of this at once.
 //!
 //! ```no_run

@@ -78,7 +78,7 @@ pub struct Row {
     pub retries: usize,
     /// Largest energy of the last half of the steps over that of the first half.
     pub energy_growth: Option<f64>,
-    /// Node-to-node oscillation of the fluid's pressure at the end, see [`super::measure`].
+    /// Node-to-node oscillation of the fluid's pressure at the end.
     pub pressure_oscillation: Option<f64>,
     /// Largest displacement of the structure at the end \[m\].
     pub structure_displacement: Option<f64>,

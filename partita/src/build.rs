@@ -1,64 +1,16 @@
 //! From a validated scene to coupled fields that can be stepped.
 
-pub(crate) mod interface;
-
-use miette::Diagnostic;
-use partita_coupling::SetupError;
-use partita_fluid::{FluidError, FluidSolver};
-use partita_structure::{MaterialError, Space, StructureError, StructureSolver};
-use thiserror::Error;
-
-pub(crate) use interface::transfer;
+use partita_fluid::FluidSolver;
+use partita_structure::{Space, StructureSolver};
 
 pub use crate::couple::FieldMarch;
+pub use crate::error::BuildError;
 
 use crate::adapt::Side;
 use crate::couple;
+use crate::interface;
 use partita_mesh::Mesh;
 use partita_scene::{Resolved, models, schema};
-
-/// A scene that reads well but cannot be built.
-#[derive(Debug, Error, Diagnostic)]
-pub enum BuildError {
-    /// The fluid.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Fluid(#[from] FluidError),
-    /// The structure's material.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Material(#[from] MaterialError),
-    /// The structure.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Structure(#[from] StructureError),
-    /// The coupling.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Coupling(#[from] SetupError),
-    /// A field that is to be coupled has no interface.
-    #[error("{field}: it has no interface")]
-    #[diagnostic(help("{remedy}"))]
-    NoInterface {
-        /// The field.
-        field: &'static str,
-        /// How it gets one.
-        remedy: &'static str,
-    },
-    /// There is no obvious way from the points of one participant to those of the other.
-    #[error("the interface of {first} has {first_values} values, that of {second} {second_values}")]
-    #[diagnostic(help("give the operator between them to `Run::couple_by`"))]
-    Unmatched {
-        /// Name of the first participant.
-        first: String,
-        /// Values at its interface.
-        first_values: usize,
-        /// Name of the second participant.
-        second: String,
-        /// Values at its interface.
-        second_values: usize,
-    },
-}
 
 /// The coupled fields of a scene, at their initial state.
 ///
@@ -81,7 +33,7 @@ pub fn march_on(Resolved { scene, shapes, .. }: &Resolved, threads: usize) -> Re
     match (fluid, structure, &scene.coupling) {
         (Some(fluid), Some(structure), Some(coupling)) => {
             let tolerance = coupling.projection_tolerance.get();
-            let transfer = transfer(&fluid, &structure, coupling.transfer, tolerance)?;
+            let transfer = interface::transfer(&fluid, &structure, coupling.transfer, tolerance)?;
             let settings = models::coupling_settings(coupling);
             if moves {
                 couple::two_way(fluid.into(), structure.into(), transfer, &settings)
@@ -108,7 +60,7 @@ fn fluid_solver(
 }
 
 /// The solver of a scene's structure in `space`, at rest.
-fn structure_solver(
+pub(crate) fn structure_solver(
     structure: &schema::Structure,
     space: Space<2>,
 ) -> Result<StructureSolver<2>, BuildError> {

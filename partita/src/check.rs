@@ -13,8 +13,8 @@ use partita_iga::seam::Seams;
 use partita_mesh::{Mesh, Place, quality, simplex};
 use partita_structure::{Space, StructureSolver};
 
-use crate::build::interface::{chosen, coarsest};
 use crate::build::{BuildError, FieldMarch};
+use crate::interface::{chosen, coarsest};
 use crate::memory;
 use inflow::Inflow;
 use partita_scene::schema::{

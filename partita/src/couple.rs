@@ -8,7 +8,8 @@ use partita_scene::schema::Transfer as TransferMethod;
 use partita_structure::StructureSolver;
 
 use crate::adapt::Side;
-use crate::build::{self, BuildError};
+use crate::error::BuildError;
+use crate::interface;
 
 /// Two coupled sides and nothing else, stepped by hand: fluid first, structure second.
 pub type FieldMarch = March<Side<FluidSolver<2>>, Side<StructureSolver<2>>>;
@@ -74,7 +75,7 @@ pub(crate) fn transfer(
         return Err(BuildError::NoInterface { field: "structure", remedy: "name its `wetted` sides" });
     }
     if let (Some(fluid), Some(structure)) = (first.field(), second.field()) {
-        return build::transfer(fluid, structure, method, tolerance);
+        return interface::transfer(fluid, structure, method, tolerance);
     }
     let points_of_fluid = first.field().map(|fluid| COMPONENTS * fluid.interface_nodes().len());
     let points_of_structure = second.field().map(|structure| COMPONENTS * structure.interface_points().len());

@@ -49,6 +49,8 @@ pub mod checkpoint;
 mod clock;
 mod couple;
 mod draw;
+mod error;
+mod interface;
 pub mod lock;
 pub mod memory;
 pub mod output;

@@ -8,6 +8,7 @@ mod page;
 mod row;
 mod short;
 mod study;
+mod words;
 
 use std::path::Path;
 

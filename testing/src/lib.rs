@@ -1,5 +1,6 @@
 //! What the tests of Partita share. No other code depends on it.
 
+pub mod cantilever;
 pub mod corpus;
 mod hint;
 mod noise;

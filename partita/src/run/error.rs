@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use partita_coupling::{SetupError, StepError};
 use partita_numerics::time::shown;
 
-use crate::build::BuildError;
 use crate::checkpoint::CheckpointError;
+use crate::error::BuildError;
 use crate::output::OutputError;
 
 /// Why a run could not go on.

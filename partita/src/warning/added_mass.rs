@@ -4,7 +4,7 @@ use partita_fluid::FluidSolver;
 use partita_structure::{Mode, StructureSolver};
 
 use super::{Found, Kind};
-use crate::build;
+use crate::interface;
 use partita_scene::schema::{Acceleration, Coupling, Direction, Fluid, FluidTimeScheme};
 
 /// `(c_0 / c_0 of BDF1)^2`, what the time scheme makes of a displacement over dt^2: the interface's acceleration.
@@ -32,7 +32,7 @@ pub(super) fn ratio(
     mode: &Mode,
 ) -> Option<f64> {
     let transfer =
-        build::transfer(fluid, structure, coupling.transfer, coupling.projection_tolerance.get()).ok()?;
+        interface::transfer(fluid, structure, coupling.transfer, coupling.projection_tolerance.get()).ok()?;
     let points = structure.interface_points();
     let shape: Vec<f64> = points.iter().flat_map(|point| [0, 1].map(|c| mode.shape[2 * point + c])).collect();
     let mut motion = vec![0.0; 2 * fluid.interface_nodes().len()];

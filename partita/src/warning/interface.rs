@@ -5,7 +5,7 @@ use partita_mesh::Place;
 use partita_structure::StructureSolver;
 
 use super::{Found, Kind};
-use crate::build::interface::{Coarsest, chosen, coarsest};
+use crate::interface::{Coarsest, chosen, coarsest};
 use partita_scene::schema::{Coupling, Transfer};
 
 /// Length of a facet over that of the element beside it, above which a scene that asks for interpolation is warned: elements

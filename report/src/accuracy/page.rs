@@ -1,12 +1,13 @@
 //! `docs/accuracy.md`: the rows as diagrams, tables and words.
 
 use partita_charts::axis::rounded;
-use partita_charts::work_precision::{Fit, Floor, FloorKind};
+use partita_charts::work_precision::{Floor, FloorKind};
 
 use super::findings::Findings;
 use super::row::{ERROR, Row};
 use super::short;
 use super::study::Study;
+use super::words::{cost, seconds};
 use crate::markdown;
 
 const HEAD: &str = "\
@@ -154,14 +155,6 @@ fn line(found: &Findings, row: &Row) -> Vec<String> {
 }
 
 /// The factor in time for one more digit.
-pub(super) fn cost(fit: &Fit) -> String {
-    rounded(fit.digit_factor(), 3)
-}
-
-pub(super) fn seconds(row: &Row) -> String {
-    row.cpu_seconds.map_or_else(|| "-".to_owned(), |seconds| rounded(seconds, 2))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,8 +4,8 @@ use partita_charts::axis::rounded;
 use partita_charts::work_precision::Fit;
 
 use super::findings::{FIRM, Findings, MOVES};
-use super::page::{cost, seconds};
 use super::row::Row;
+use super::words::{cost, seconds};
 use crate::markdown;
 
 /// The section `In short`.

@@ -17,7 +17,7 @@ fn solver(space: Space<2>, wetted: &[&str]) -> StructureSolver<2> {
         "material": { "linear_elastic": { "young_modulus": 1.0, "poisson_ratio": 0.3 } },
     });
     let scene = serde_json::from_value(given).expect("a structure");
-    super::super::structure_solver(&scene, space).expect("a solver")
+    crate::build::structure_solver(&scene, space).expect("a solver")
 }
 
 /// Turns a patch about the origin.

@@ -7,7 +7,7 @@ use partita_numerics::gauss;
 use partita_structure::{Segment, StructureError, StructureSolver};
 use sprs::TriMat;
 
-use super::BuildError;
+use crate::error::BuildError;
 use partita_scene::schema;
 
 mod coarsest;

@@ -191,6 +191,12 @@ pub struct StepRecord {
 }
 
 impl StepRecord {
+    /// Newton iterations of the field of this name; none where there is no such field.
+    #[must_use]
+    pub fn newton_of(&self, field: &str) -> usize {
+        self.fields.iter().find(|known| known.name == field).map_or(0, |known| known.newton)
+    }
+
     /// The summary of the iterations of a step, whose last one made the accelerator drop columns, too.
     ///
     /// # Panics

@@ -1,7 +1,7 @@
 //! The provided verbs, on a field of one unknown: y' = f - y^3 by implicit Euler.
 
 use super::*;
-use crate::newton::ResidualNorm;
+use crate::newton::{ResidualNorm, ReusableFactor};
 
 #[derive(Debug, PartialEq)]
 enum CubicError {
@@ -64,6 +64,14 @@ impl Problem for Cubic {
         self.log.factored(self.coefficients());
         self.trial[0] -= self.residual / self.tangent[0];
         Ok(())
+    }
+
+    /// Where factors are reused, nothing takes a step back or drops the factor.
+    fn reusable_factor(&self) -> ReusableFactor {
+        if self.settings.reuse_factor.is_none() {
+            return ReusableFactor::Missing;
+        }
+        self.log.worth(&self.coefficients(), false)
     }
 }
 
@@ -178,4 +186,14 @@ fn a_tangent_goes_from_one_solver_to_another_that_it_fits() {
     let longer = ReusableTangent { values: vec![1.0; 2], ..tangent };
     let mismatch = StateMismatch { what: "entries of the kept tangent", found: 2, expected: 1 };
     assert_eq!(other.restore_tangent(&longer), Err(CubicError::Mismatch(mismatch)));
+}
+
+/// Without the rule that a factor is not tried again after its step was taken back, this test does not end.
+#[test]
+fn the_loop_ends_although_a_problem_never_drops_its_factor() {
+    let mut cubic = Cubic::new();
+    cubic.settings.reuse_factor = Some(0.5);
+    cubic.impose(&[-1e3]).expect("a force");
+    assert!(cubic.step_alone(0.1, 0.1).is_err(), "such a problem is not solved, but that is said");
+    assert_eq!(cubic.values(), [1.0], "the step is given up");
 }

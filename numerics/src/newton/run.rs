@@ -76,10 +76,13 @@ pub fn solve<P: Problem>(
     if level.is_converged() && !lagged {
         report.converge(level);
     }
+    // A factor whose step was taken back is not tried again, whatever the problem says of it: the loop ends for every problem.
+    let mut was_taken_back = false;
     while !report.converged && !report.stopped_by_callback && report.iterations < most {
         let index = report.iterations + 1;
         let before = report.exit;
-        let refactors = needs_tangent(problem, settings);
+        let refactors = was_taken_back || needs_tangent(problem, settings);
+        was_taken_back = false;
         if refactors && !has_tangent {
             assemble(problem, report.iterations, true, Some((entry, before)))?;
             report.count_assembly(true);
@@ -96,7 +99,7 @@ pub fn solve<P: Problem>(
         if is_chord && !reached.is_converged() && raises(&before, residual.as_ref().ok()) {
             problem.take_back();
             problem.drop_factor();
-            has_tangent = false;
+            (has_tangent, was_taken_back) = (false, true);
             continue;
         }
         let residual = residual?;

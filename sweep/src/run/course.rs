@@ -204,13 +204,11 @@ impl Health {
 
 impl Counts {
     fn add(&mut self, step: &StepRecord) {
-        let newton =
-            |name| step.fields.iter().find(|field| field.name == name).map_or(0, |field| field.newton);
         self.steps += 1;
         self.unconverged_steps += usize::from(!step.converged);
         self.coupling_iterations += step.iterations;
-        self.newton_fluid += newton("fluid");
-        self.newton_structure += newton("structure");
+        self.newton_fluid += step.newton_of("fluid");
+        self.newton_structure += step.newton_of("structure");
     }
 }
 
